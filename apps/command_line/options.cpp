@@ -100,6 +100,16 @@ void add_files(CLI::App& command, std::vector<std::string>& files, std::string& 
         ->capture_default_str();
 }
 
+void add_paths(CLI::App& command, std::vector<std::string>& paths) {
+    command
+        .add_option("--paths", paths,
+                    "Put the paths of this pixel into the page; or the word named, for the samples that the health report names. "
+                    "Repeatable")
+        ->type_name("X,Y")
+        ->allow_extra_args(false)
+        ->take_all();
+}
+
 void add_definitions(CLI::App& command, std::vector<std::string>& texts) {
     command.add_option("-D", texts, "Define $name in the scene file")->type_name("name=value")->allow_extra_args(false)->take_all();
 }

@@ -31,6 +31,8 @@ CLI::Validator whole_part();
 PartOfSamples part_of(const std::string& text);
 // --files: what is written beside run.json; --theme: what sheets and strips are on.
 void add_files(CLI::App& command, std::vector<std::string>& files, std::string& theme);
+// --paths X,Y and named, repeatable.
+void add_paths(CLI::App& command, std::vector<std::string>& paths);
 // -D name=value, repeatable.
 void add_definitions(CLI::App& command, std::vector<std::string>& texts);
 // --petsc, with or without a value.
@@ -38,8 +40,8 @@ void add_petsc(CLI::App& command, std::optional<std::string>& options, const std
 // --lenient.
 void add_lenient(CLI::App& command, bool& lenient);
 
-// The command line with "--petsc" and a value that looks like an option, "-ksp_type gmres", as one argument, and "--live" as "--live=0"
-// where what follows is no port.
+// The command line with "--petsc" and a value that looks like an option, "-ksp_type gmres", as one argument, and "--live" as
+// "--live=0" where what follows is no port.
 std::vector<std::string> joined_arguments(int argc, char** argv);
 
 // SCENE and the options of all commands that treat it as matrices.

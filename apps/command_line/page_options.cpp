@@ -9,12 +9,7 @@ CLI::App* add_page(CLI::App& app, PageRequest& request) {
     auto* page = app.add_subcommand("page", "Make page, slides and tables of a render anew, with the paths of pixels");
     request.files = page_file_groups();
     page->add_option("DIR", request.folder, "Folder of a render")->required();
-    page->add_option("--paths", request.paths,
-                     "Put the paths of this pixel into the page; or the word named, for the samples that the health report names. "
-                     "Repeatable")
-        ->type_name("X,Y")
-        ->allow_extra_args(false)
-        ->take_all();
+    add_paths(*page, request.paths);
     page->add_option("--files", request.files, "What is made; default all of these")
         ->type_name("WHAT")
         ->delimiter(',')

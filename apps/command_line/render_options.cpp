@@ -36,6 +36,7 @@ CLI::App* add_render(CLI::App& app, RenderRequest& request) {
                      "Folder of an earlier render; convergence.csv then also has the errors against it")
         ->type_name("DIR");
     add_files(*render, request.files, request.theme);
+    add_paths(*render, request.paths);
     render
         ->add_option_function<std::string>(
             "--part", [&request](const std::string& text) { request.goal.part = part_of(text); },

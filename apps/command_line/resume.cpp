@@ -25,8 +25,8 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::array<std::string_view, 3> limits = {"--spp", "--time", "--error"};
 // What has no effect on the samples. The scene may have moved; its hash tells whether it is the same.
-constexpr std::array<std::string_view, 11> changeable = {"SCENE",  "-t",       "--memory",     "--files",     "--quiet", "--live",
-                                                         "--json", "--resume", "--checkpoint", "--reference", "--tev"};
+constexpr std::array<std::string_view, 12> changeable = {"SCENE",  "-t",     "--memory", "--files",      "--paths",     "--quiet",
+                                                         "--live", "--json", "--resume", "--checkpoint", "--reference", "--tev"};
 
 bool is_one_of(const auto& names, const std::string& name) { return std::ranges::find(names, name) != names.end(); }
 

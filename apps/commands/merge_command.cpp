@@ -76,7 +76,7 @@ int merge_command(const MergeRequest& request) {
     const std::uint64_t missing = missing_samples(asked.front().options, merged);
     const ThreadLimit threads(request.threads);
     Json options = asked.front().options;
-    for (const char* name : {"--part", "--seed", "--spp"}) options.erase(name);
+    for (const char* name : {"--part", "--seed", "--spp", "--paths"}) options.erase(name);
     if (merged.series.merged.empty()) {
         options["--spp"] = {std::to_string(merged.series.samples)};
         if (merged.render.seed != 0) options["--seed"] = {std::to_string(merged.render.seed)};
@@ -102,7 +102,7 @@ int merge_command(const MergeRequest& request) {
             fmt::format("{} samples a pixel of the whole are missing: a part is not here, or was cut short", missing));
     const Rendering rendering{file,  request.command_line, options,         definitions,
                               scene, std::move(series),    clock.seconds(), choose_files(request.files, request.theme == "white")};
-    const auto [warnings, json, page] = write_rendering(rendering, folder);
+    const auto [warnings, json, page, why_no_paths] = write_rendering(rendering, folder);
     if (!request.quiet) print_rendering(rendering, warnings, request.output);
     return 0;
 }

@@ -11,8 +11,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <charconv>
-
 namespace neumann {
 
 namespace {
@@ -23,29 +21,9 @@ std::string theme_of(const RenderedFolder& rendered) {
     return request->at("--theme").at(0).get<std::string>();
 }
 
-ChosenPixels chosen_pixels(const std::vector<std::string>& texts) {
-    ChosenPixels chosen;
-    for (const std::string& text : texts) {
-        if (text == "named") {
-            chosen.named = true;
-            continue;
-        }
-        const char* const end = text.data() + text.size();
-        int x = 0, y = 0;
-        const auto [comma, no_x] = std::from_chars(text.data(), end, x);
-        const bool has_comma = no_x == std::errc() && comma != end && *comma == ',';
-        const auto [rest, no_y] = has_comma ? std::from_chars(comma + 1, end, y) : std::from_chars_result{comma, no_x};
-        if (!has_comma || no_y != std::errc() || rest != end)
-            throw InputError(fmt::format("--paths {}: expected a pixel, as 19,160, or the word named", text));
-        chosen.pixels.emplace_back(x, y);
-    }
-    return chosen;
-}
-
-nlohmann::ordered_json paths_of(const PageRequest& request) {
-    if (request.paths.empty()) return nullptr;
-    const ChosenPixels chosen = chosen_pixels(request.paths);
-    const RecordedRun run = read_recorded_run(request.folder);
+nlohmann::ordered_json paths_of(const std::string& folder, const ChosenPixels& chosen) {
+    if (chosen.empty()) return nullptr;
+    const RecordedRun run = read_recorded_run(folder);
     return paths_json(run, read_scene_of(run), chosen);
 }
 
@@ -61,8 +39,7 @@ int page_command(const PageRequest& request) try {
     const RenderedFolder rendered(request.folder);
     ChosenFiles files = choose_files(request.files);
     files.white = (request.theme.empty() ? theme_of(rendered) : request.theme) == "white";
-    if (!request.paths.empty() && !files.page) throw InputError("--paths: are for the page; expected page among --files");
-    const auto paths = paths_of(request);
+    const auto paths = paths_of(request.folder, choose_pixels(request.paths, files));
 
     OutputFolder folder(request.folder, "render");
     std::vector<std::string> notes;

@@ -7,6 +7,7 @@
 #include "apps/commands/preview.h"
 #include "apps/commands/print_rendering.h"
 #include "apps/commands/progress_line.h"
+#include "apps/files/recorded_run.h"
 #include "apps/files/reference.h"
 #include "apps/files/saved_render.h"
 #include "apps/files/scene_json.h"
@@ -44,6 +45,13 @@ Viewers viewers_of_files(const Scene& scene, const OutputFolder& folder, const C
     Viewers viewers{{}, SmallShare(rest_of_files, first)};
     if (files.page && folder.may_show_page()) viewers.all.push_back(&page);
     return viewers;
+}
+
+void expect_paths(const Method& method) {
+    if (const auto* chosen = std::get_if<method::Auto>(&method); chosen && chosen->bias_allowed)
+        throw InputError("--paths: --bias-allowed may choose fields on patches, which have no paths; take one of the two");
+    if (const std::string why = why_no_replay(method); !why.empty())
+        throw InputError(fmt::format("--paths: --method {} has no paths to replay: {}", name_of(method), why));
 }
 
 void expect_nothing_unfinished(const std::string& folder) {
@@ -131,6 +139,8 @@ int render_command(const RenderRequest& given) {
         throw InputError(fields ? fmt::format("--part: --method {} has no samples that could be put together", request.method.name)
                                 : std::string("--part needs --spp, the samples of all parts"));
     const ChosenFiles files = choose_files(request.files, request.theme == "white");
+    const ChosenPixels paths = choose_pixels(request.paths, files);
+    if (!paths.empty()) expect_paths(make_method(request.method));
     if (request.output.empty())
         request.output = (std::filesystem::path("out") / std::filesystem::path(request.scene).stem()).string();
     std::error_code missing;
@@ -155,6 +165,7 @@ int render_command(const RenderRequest& given) {
     const ThreadLimit threads(threads_of_process(request.threads));
 
     const auto scene = std::make_shared<const Scene>(read_scene(request.scene, request.definitions, {.lenient = request.lenient}));
+    for (const Vec2& p : paths.pixels) pixel_number(scene->film, static_cast<int>(p.x), static_cast<int>(p.y), "--paths");
     std::optional<OutputFolder> folder(std::in_place, request.output, "render");
     std::optional<RenderState> state = read_state(request, *scene);
     const auto crew = launched_crew(
@@ -188,11 +199,12 @@ int render_command(const RenderRequest& given) {
     }();
     line.clear();
     rendering->seconds += reading_seconds;
+    rendering->paths = paths;
     if (const Processes* const processes = launched()) {
         rendering->processes = processes->size();
         rendering->traffic = processes->traffic();
     }
-    const auto [warnings, json, page] = [&] {
+    const auto [warnings, json, page, why_no_paths] = [&] {
         try {
             return write_rendering(*rendering, *folder);
         } catch (const RunError& error) {
@@ -201,6 +213,7 @@ int render_command(const RenderRequest& given) {
         }
     }();
 
+    if (!why_no_paths.empty() && !request.quiet) fmt::print(stderr, "note: the page has no paths: {}\n", why_no_paths);
     if (request.json) {
         if (!request.quiet) print_problems(*rendering, warnings, request.output);
         fmt::print("{}\n", json.dump(2));

@@ -21,6 +21,7 @@ struct RenderRequest {
     Goal goal;
     std::optional<double> memory;                    // GiB
     std::vector<std::string> files = file_groups();  // those that are written beside run.json
+    std::vector<std::string> paths;                  // "X,Y", and "named": whose paths the page shows
     std::string theme = "dark";                      // or "white": the background of sheets and strips
     std::string reference;                           // a folder of an earlier render, or empty
     int threads = 0;                                 // 0: all

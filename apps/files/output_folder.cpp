@@ -73,6 +73,15 @@ int write_file(const fs::path& path, std::span<const std::string_view> pieces) {
     return written != 0 ? written : closed;
 }
 
+// Onto the disk.
+int flush(const fs::path& path) {
+    const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    if (file < 0) return errno;
+    const int flushed = ::fsync(file) == 0 ? 0 : errno;
+    ::close(file);
+    return flushed;
+}
+
 // The file names in `folder` for which `wanted` is true.
 template <typename Predicate>
 std::vector<std::string> names_in(const fs::path& folder, Predicate wanted) {
@@ -212,12 +221,29 @@ void OutputFolder::discard() noexcept {
 void OutputFolder::write(const std::string& name, std::string_view bytes) { write_pieces(name, std::span(&bytes, 1)); }
 
 void OutputFolder::write_pieces(const std::string& name, std::span<const std::string_view> pieces) {
-    if (!is_output_name(name)) throw std::invalid_argument("OutputFolder::write: " + name + " is not a name of an output file");
-    {
-        const std::scoped_lock lock(written_by_one_);
-        if (std::find(written_.begin(), written_.end(), name) == written_.end()) written_.push_back(name);
+    begin(name);
+    end(name, write_file(partial(name), pieces));
+}
+
+void OutputFolder::write_by(const std::string& name, const std::function<void(const fs::path&)>& make) {
+    begin(name);
+    int error = 0;
+    try {
+        make(partial(name));
+        error = flush(partial(name));
+    } catch (const std::system_error& failed) {
+        error = failed.code().value();
     }
-    const int error = write_file(partial(name), pieces);
+    end(name, error);
+}
+
+void OutputFolder::begin(const std::string& name) {
+    if (!is_output_name(name)) throw std::invalid_argument("OutputFolder: " + name + " is not a name of an output file");
+    const std::scoped_lock lock(written_by_one_);
+    if (std::find(written_.begin(), written_.end(), name) == written_.end()) written_.push_back(name);
+}
+
+void OutputFolder::end(const std::string& name, int error) {
     if (error == 0) return;
     ::unlink(partial(name).c_str());
     throw RunError(cannot_be_written(path_ / name, error));

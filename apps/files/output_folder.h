@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <mutex>
 #include <set>
 #include <span>
@@ -37,6 +38,9 @@ public:
     // several files. Throws RunError if not all bytes can be written: "out/x/bounce_000.exr: cannot be written: No space left on
     // device".
     void write(const std::string& name, std::string_view bytes);
+    // The same of a file that `make` writes to the path that it is given, where it would be large in memory; what it throws as
+    // std::system_error becomes RunError.
+    void write_by(const std::string& name, const std::function<void(const std::filesystem::path&)>& make);
 
     // Puts preview.png or index.html in place at once, for a look at what is on its way. commit() and the destructor remove it, and
     // where the process was killed, the next run removes preview.png. The index.html of a finished run is not to be replaced so
@@ -71,6 +75,8 @@ public:
 private:
     std::filesystem::path partial(const std::string& name) const { return path_ / ("." + name + ".partial"); }
     void write_pieces(const std::string& name, std::span<const std::string_view> pieces);
+    void begin(const std::string& name);
+    void end(const std::string& name, int error);  // 0, or its number
     void put(const std::string& name);
     void expect_no_other_files(std::string_view command) const;
     void create();

@@ -14,36 +14,39 @@ namespace neumann {
 
 using Json = nlohmann::ordered_json;
 
+RecordedRun recorded_run(const Json& json, const std::string& folder) {
+    const Json &options = json.at("options"), &samples = json.at("samples");
+    RecordedRun run;
+    run.folder = folder;
+    RecordedRender& render = run.render;
+    render.method = method_from_json(options);
+    if (const std::string why = why_no_replay(render.method); !why.empty())
+        throw InputError(fmt::format("{}: --method {} has no paths to replay: {}", folder, name_of(render.method), why));
+    run.scene = json.at("scene").at("file");
+    json.at("scene").at("definitions").get_to(run.definitions);
+    run.lenient = json.at("scene").contains("replaced");
+    run.hash = json.at("scene").at("hash");
+    run.version = json.at("program").at("version");
+    render.seed = options.at("seed");
+    render.bounces = options.at("bounces");
+    render.rest_probability = json.at("rest").value("probability_of_being_sampled", 0.0);
+    render.replicate_size = samples.at("replicate_size");
+    run.samples = samples.at("per_pixel");
+    run.first = samples.value("first_replicate", std::uint64_t{0}) * render.replicate_size;
+    if (samples.contains("merged"))
+        for (const Json& range : samples.at("merged"))
+            run.merged.push_back({range.at("seed"), range.at("first_replicate"), range.at("replicates")});
+    run.named = json.at("health").at("samples");
+    return run;
+}
+
 RecordedRun read_recorded_run(const std::string& folder) {
     if (!std::filesystem::is_directory(folder)) throw InputError(folder + ": is not a folder; expected that of a render");
     const std::string path = (std::filesystem::path(folder) / "run.json").string();
     std::ifstream file(path);
     if (!file) throw InputError(path + ": cannot be read; expected the folder of a finished render");
     try {
-        const Json json = Json::parse(file);
-        const Json &options = json.at("options"), &samples = json.at("samples");
-        RecordedRun run;
-        run.folder = folder;
-        RecordedRender& render = run.render;
-        render.method = method_from_json(options);
-        if (const std::string why = why_no_replay(render.method); !why.empty())
-            throw InputError(fmt::format("{}: --method {} has no paths to replay: {}", folder, name_of(render.method), why));
-        run.scene = json.at("scene").at("file");
-        json.at("scene").at("definitions").get_to(run.definitions);
-        run.lenient = json.at("scene").contains("replaced");
-        run.hash = json.at("scene").at("hash");
-        run.version = json.at("program").at("version");
-        render.seed = options.at("seed");
-        render.bounces = options.at("bounces");
-        render.rest_probability = json.at("rest").value("probability_of_being_sampled", 0.0);
-        render.replicate_size = samples.at("replicate_size");
-        run.samples = samples.at("per_pixel");
-        run.first = samples.value("first_replicate", std::uint64_t{0}) * render.replicate_size;
-        if (samples.contains("merged"))
-            for (const Json& range : samples.at("merged"))
-                run.merged.push_back({range.at("seed"), range.at("first_replicate"), range.at("replicates")});
-        run.named = json.at("health").at("samples");
-        return run;
+        return recorded_run(Json::parse(file), folder);
     } catch (const Json::exception& e) {
         throw InputError(fmt::format("{}: is not a run.json of this program's renders: {}", path, e.what()));
     }

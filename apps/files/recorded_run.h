@@ -27,6 +27,8 @@ struct RecordedRun {
 
 // Throws InputError if there is no such folder or run.json, and if the method has no paths.
 RecordedRun read_recorded_run(const std::string& folder);
+// Of a run.json that is not on disk yet; `folder`: for messages.
+RecordedRun recorded_run(const nlohmann::ordered_json& run, const std::string& folder);
 
 // Its scene. Warns on stderr if that has changed since, or if another version rendered it.
 Scene read_scene_of(const RecordedRun& run);

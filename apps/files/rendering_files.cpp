@@ -5,6 +5,8 @@
 #include "apps/files/series_files.h"
 #include "apps/files/ways_files.h"
 #include "apps/pages/explorer_page.h"
+#include "apps/pages/paths_json.h"
+#include "core/base/error.h"
 #include "core/base/stopwatch.h"
 
 namespace neumann {
@@ -49,7 +51,7 @@ WrittenRendering write_rendering(const Rendering& rendering, OutputFolder& folde
     const ShownPictures written = write_pictures(folder, series, files, *rendering.scene, packed);
     if (!written.warning.empty()) warnings.add(written.warning);
     if (files.page && packed.factor() > 1) warnings.add(packed.reduction());
-    if (files.layers) folder.write("layers.exr", layers_exr(series, *rendering.scene));
+    if (files.layers) write_layers(folder, series, *rendering.scene);
     if (series.ways) write_ways(folder, *series.ways, files);
     const std::string convergence = convergence_table(series.convergence);
     if (files.tables) {
@@ -57,15 +59,20 @@ WrittenRendering write_rendering(const Rendering& rendering, OutputFolder& folde
         folder.write("convergence.csv", convergence);
     }
     const auto json = run_json(rendering, warnings, folder.path().string(), rendering.seconds + watch.seconds());
-    std::string data;
+    std::string data, why_no_paths;
     if (files.page) {
-        const ExploredRun explored{json, convergence, written.exposure, std::move(packed), series.rest.has_value()};
+        ExploredRun explored{json, convergence, written.exposure, std::move(packed), series.rest.has_value()};
+        if (!rendering.paths.empty()) try {
+                explored.paths = paths_json(recorded_run(json, folder.path().string()), *rendering.scene, rendering.paths);
+            } catch (const InputError& error) {  // the render is not lost for it
+                why_no_paths = error.what();
+            }
         data = explorer_data({&explored});
         folder.write("index.html", explorer_page(data));
     }
     folder.write("run.json", json.dump(2) + "\n");
     folder.commit();
-    return {warnings, json, std::move(data)};
+    return {warnings, json, std::move(data), std::move(why_no_paths)};
 }
 
 }  // namespace neumann

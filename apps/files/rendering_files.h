@@ -2,6 +2,7 @@
 #pragma once
 
 #include "apps/files/chosen_files.h"
+#include "apps/files/chosen_pixels.h"
 #include "apps/files/output_folder.h"
 #include "core/processes/processes.h"
 #include "operators/methods/bounce_series.h"
@@ -23,6 +24,7 @@ struct Rendering {
     BounceSeries series;
     double seconds = 0.0;  // total time before writing
     ChosenFiles files = {};
+    ChosenPixels paths = {};  // which the page shows
     // Of the processes that rendered it together: how many, and what the first one sent and received.
     int processes = 1;
     Processes::Traffic traffic = {};
@@ -36,7 +38,8 @@ struct Rendering {
 struct WrittenRendering {
     Warnings warnings;  // including those about the files
     nlohmann::ordered_json run;
-    std::string page_data;  // what index.html shows; empty if it was not chosen
+    std::string page_data;     // what index.html shows; empty if it was not chosen
+    std::string why_no_paths;  // on a page that should have some; empty otherwise
 };
 
 // Writes the chosen files and commits them. Throws RunError if not everything can be written.

@@ -66,9 +66,9 @@ std::string sum_exr(const BounceSeries& series, const Scene& scene, std::size_t 
 
 std::string rest_exr(const BounceSeries& series, const Scene& scene) { return encode_exr(*series.rest, of_rest(series, scene)); }
 
-std::string layers_exr(const BounceSeries& series, const Scene& scene) {
+void write_layers(OutputFolder& folder, const BounceSeries& series, const Scene& scene) {
     const std::size_t bounces = series.report.bounces.size();
-    return encode_exr_parts(bounces + (series.rest ? 2 : 1), [&](std::size_t i) -> ExrPart {
+    const auto part = [&](std::size_t i) -> ExrPart {
         if (i > bounces) return {"rest", *series.rest, of_rest(series, scene)};
         if (i == bounces) {
             PixelEstimate sum = series.sum(bounces - 1);
@@ -78,7 +78,8 @@ std::string layers_exr(const BounceSeries& series, const Scene& scene) {
         PixelEstimate term = series.term(i);
         Attributes attributes = of_term(series, scene, i, term);
         return {fmt::format("bounce_{:03}", i), std::move(term), std::move(attributes)};
-    });
+    };
+    folder.write_by("layers.exr", [&](const auto& path) { write_exr_parts(path, bounces + (series.rest ? 2 : 1), part); });
 }
 
 double estimated_bytes(const Film& film, int bounces, bool has_discretisation, const ChosenFiles& files) {

@@ -26,8 +26,8 @@ std::string term_exr(const BounceSeries& series, const Scene& scene, std::size_t
 std::string sum_exr(const BounceSeries& series, const Scene& scene, std::size_t i, const PixelEstimate& sum);
 std::string rest_exr(const BounceSeries& series, const Scene& scene);
 
-// The contents of layers.exr: a part for each bounce, as in its own file, for their sum and for the rest.
-std::string layers_exr(const BounceSeries& series, const Scene& scene);
+// Writes layers.exr: a part for each bounce, as in its own file, for their sum and for the rest.
+void write_layers(OutputFolder& folder, const BounceSeries& series, const Scene& scene);
 
 // Approximate number of bytes that a render writes if its EXR files do not compress.
 double estimated_bytes(const Film& film, int bounces, bool has_discretisation, const ChosenFiles& files);

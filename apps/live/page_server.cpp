@@ -29,6 +29,7 @@ using Clock = std::chrono::steady_clock;
 using std::chrono::seconds;
 
 constexpr seconds without_news{1}, patience{30}, open_for{3};
+constexpr std::chrono::milliseconds before_again{200};
 constexpr std::size_t most_pages = 64, longest_header = 16384;
 
 // Other names may have been made to point here by whoever owns them, to have a browser read what is served here.
@@ -134,8 +135,12 @@ private:
     }
     void accept() {
         acceptor_.async_accept([this](boost::system::error_code error, asio::ip::tcp::socket socket) {
+            if (error) {  // such as no descriptor that is free, which lasts
+                again_.expires_after(before_again);
+                again_.async_wait([this](boost::system::error_code) { accept(); });
+                return;
+            }
             accept();
-            if (error) return;
             stays_here(socket);
             read(std::make_shared<Session>(std::move(socket)));
         });
@@ -213,6 +218,7 @@ private:
 
     asio::io_context io_;
     asio::ip::tcp::acceptor acceptor_;
+    asio::steady_timer again_{io_};
     std::uint16_t port_ = 0;
     nlohmann::ordered_json progress_ = nlohmann::ordered_json::object();
     std::string data_;

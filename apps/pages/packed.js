@@ -37,11 +37,11 @@ const decoded = async (text, head, pixels) => {
   const bits = Uint16Array.from({ length: n }, (_, k) => bytes[k] << 8 | bytes[k + n]), errors = {};
   addRed(bits, pixels);
   let at = 2 * n;
-  for (const { kind, channels, low, step } of head.errors) {
+  for (const { kind, channels, block, codes: count, low, step } of head.errors) {
     const values = Float64Array.from({ length: 256 }, (_, c) => c === 0 ? 0 : c === 255 ? Infinity : 2 ** (low + (c - 1) * step));
-    const codes = bytes.subarray(at, at += channels * pixels);
+    const codes = bytes.subarray(at, at += count);
     if (channels === 3) addRed(codes, pixels);
-    errors[kind] = { codes, values };
+    errors[kind] = { codes, values, block };
   }
   return { mean: Float32Array.from(bits, b => halves[b] * scale), errors };
 };

@@ -22,6 +22,7 @@ namespace {
 constexpr double finest_step = 1.0 / 6.0;
 constexpr int largest_code = 254, unknown = 255;
 constexpr int compression = 1;
+constexpr std::size_t discretisation_block = 4;
 
 // Calls what(i) for every pixel.
 template <typename Function>
@@ -54,6 +55,16 @@ std::uint16_t without_noise(std::uint16_t half, int exponent, double error) {
     if (drop == 0) return half;
     const auto rounded = static_cast<std::uint16_t>(((half + (1 << (drop - 1))) >> drop) << drop);
     return (rounded & 0x7fff) != 0 ? rounded : half;
+}
+
+// How far off a pixel may be: by its noise, and by what patches get wrong.
+Image errors_of_means(const Image& noise, const Image& discretisation) {
+    if (discretisation.pixels.empty()) return noise;
+    Image errors = discretisation;
+    for_pixels(noise.pixels.size(), [&](std::size_t i) {
+        for (int c = 0; c < 3; ++c) errors.pixels[i][c] = std::hypot(noise.pixels[i][c], errors.pixels[i][c]);
+    });
+    return errors;
 }
 
 // `errors` may be empty.
@@ -96,11 +107,16 @@ std::vector<float> logarithms(const Image& errors) {
     return logs;
 }
 
-// Of three channels the worst.
-std::vector<float> largest_of_channels(const std::vector<float>& logs) {
-    const std::size_t n = logs.size() / 3;
-    std::vector<float> largest(n);
-    for_pixels(n, [&](std::size_t i) { largest[i] = std::max({logs[i], logs[i + n], logs[i + 2 * n]}); });
+// The worst pixel and channel of each block.
+std::vector<float> largest_of_blocks(const std::vector<float>& logs, std::size_t width, std::size_t height) {
+    constexpr std::size_t side = discretisation_block;
+    const std::size_t across = (width + side - 1) / side, down = (height + side - 1) / side;
+    std::vector<float> largest(across * down, -std::numeric_limits<float>::infinity());
+    for (std::size_t k = 0; k < logs.size(); ++k) {
+        const std::size_t x = k % width, y = k / width % height;
+        float& of_block = largest[y / side * across + x / side];
+        of_block = std::max(of_block, logs[k]);
+    }
     return largest;
 }
 
@@ -196,10 +212,14 @@ void PackedSeries::add_errors(std::size_t i, const char* kind, const Image& erro
     if (errors.pixels.empty()) return;
     const bool is_discretisation = std::string_view(kind).ends_with("discretisation");
     std::vector<float> logs = logarithms(errors);
-    if (is_discretisation) logs = largest_of_channels(logs);
+    if (is_discretisation) logs = largest_of_blocks(logs, static_cast<std::size_t>(width()), static_cast<std::size_t>(height()));
     const LogScale scale(logs);
-    pictures_[i].head["errors"].push_back(
-        {{"kind", kind}, {"channels", is_discretisation ? 1 : 3}, {"low", scale.low()}, {"step", scale.step()}});
+    pictures_[i].head["errors"].push_back({{"kind", kind},
+                                           {"channels", is_discretisation ? 1 : 3},
+                                           {"block", is_discretisation ? discretisation_block : 1},
+                                           {"codes", logs.size()},
+                                           {"low", scale.low()},
+                                           {"step", scale.step()}});
     codes_[i][kind] = scale.codes(logs);
 }
 
@@ -209,7 +229,7 @@ void PackedSeries::add_term(std::size_t i, const PixelEstimate& term) {
         const int exponent = exponent_of(e.mean);
         const Image errors = e.pixel_errors();
         picture.head = {{"exponent", exponent}, {"errors", nlohmann::ordered_json::array()}};
-        add_halves(e.mean, errors, exponent, picture.bytes);
+        add_halves(e.mean, errors_of_means(errors, e.discretisation), exponent, picture.bytes);
         add_errors(i, "term", errors);
         add_errors(i, "term_discretisation", e.discretisation);
     };
@@ -228,13 +248,13 @@ void PackedSeries::add_sum(std::size_t i, const PixelEstimate& sum) {
 }
 
 void PackedSeries::pack() {
-    const std::size_t n = static_cast<std::size_t>(width()) * static_cast<std::size_t>(height());
     tbb::parallel_for(std::size_t{0}, pictures_.size(), [&](std::size_t i) {
         PackedPicture& picture = pictures_[i];
         for (const auto& scale : picture.head["errors"]) {
             const auto kind = scale.at("kind").get<std::string>();
             const Codes* const before = i > 0 && codes_[i - 1].contains(kind) ? &codes_[i - 1].at(kind) : nullptr;
-            add_codes(codes_[i].at(kind), before, n, picture.bytes);
+            const Codes& codes = codes_[i].at(kind);
+            add_codes(codes, before, codes.size() / scale.at("channels").get<std::size_t>(), picture.bytes);
         }
         picture.bytes = base91(deflated(picture.bytes));
     });

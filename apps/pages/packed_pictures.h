@@ -13,17 +13,18 @@
 namespace neumann {
 
 // A picture's means are half floats (11 bits, about three digits) times a power of two of its own, so that the darkest bounce keeps
-// as many as the brightest. Where a mean has an error, it is a multiple of the largest power of two that is at most 1/8 of that,
-// so that it is off by at most 1/16 of its error: what is left out is noise, which no compression makes smaller. Its errors are a
-// byte each: 0 for no error, 255 for an unknown one, otherwise c for 2^(low + (c − 1) step), a step of 1/6, so that errors are 6%
-// off at most, or as wide as the picture's errors need. What patches get wrong is a byte a pixel, for its worst channel.
+// as many as the brightest. Where a mean has an error, √(SE² + discretisation²), it is a multiple of the largest power of two that
+// is at most 1/8 of that, so that it is off by at most 1/16 of its error: what is left out is noise, which no compression makes
+// smaller. Its errors are a byte each: 0 for no error, 255 for an unknown one, otherwise c for 2^(low + (c − 1) step), a step of
+// 1/6, so that errors are 6% off at most, or as wide as the picture's errors need. What patches, photons and caches get wrong is a
+// byte for each block of 4 × 4 pixels, for the worst pixel and channel in it: the page calls it "at most".
 //
 // The channels are much alike, and so are the errors of neighbouring bounces: codes are kept less those of the picture before, and
 // then halves (as numbers of 16 bits) and codes of green and blue less those of red. All of it is deflated, and then written in 91
 // characters.
 struct PackedPicture {
     // "exponent" of the scale, and "errors": kind ("term", "sum", "term_discretisation", "sum_discretisation"), channels (3 or 1),
-    // low, step, in the order of `bytes`
+    // block (its side in pixels), codes (how many in all channels), low, step, in the order of `bytes`
     nlohmann::ordered_json head;
     // The high bytes of the halves, red, green, blue, a row after another, their low bytes, then the errors of each kind.
     std::string bytes;

@@ -1,19 +1,12 @@
 // The paths of pixels for the page: their rays on the film and from above, what they bring, and how the pixels' means came about.
 #pragma once
 
+#include "apps/files/chosen_pixels.h"
 #include "apps/files/recorded_run.h"
 
 #include <nlohmann/json.hpp>
 
-#include <vector>
-
 namespace neumann {
-
-// Whose paths are shown.
-struct ChosenPixels {
-    std::vector<Vec2> pixels;  // x, y of the film
-    bool named = false;        // those of the samples that the health report names
-};
 
 // "outline" (of the scene, from above), "above" (the axis), "pixels": each with "pixel", "picture" (its place in the picture),
 // "count" (samples), "method", "history" or "why_no_history", and "paths". Throws InputError for a pixel outside the picture.

@@ -44,10 +44,14 @@ class Series {
     for (let k = 0; k <= ref.i; ++k) total += this.planes[k].mean[p];
     return total;
   }
-  // The standard errors, a function of an index as that of mean(); with `kind` "_discretisation" what patches get wrong in a pixel's worst channel.
+  // The standard errors, a function of an index as that of mean(); with `kind` "_discretisation" what patches get wrong, by pixel, in the worst
+  // channel and pixel of its block.
   errors({ i, sum }, kind = "") {
     const found = this.planes[i].errors[(sum ? "sum" : "term") + kind];
-    return found && (p => found.values[found.codes[p]]);
+    if (!found) return undefined;
+    if (found.block === 1) return p => found.values[found.codes[p]];
+    const of = x => Math.floor(x / found.block), across = Math.ceil(this.width / found.block);
+    return p => found.values[found.codes[of(p / this.width) * across + of(p % this.width)]];
   }
   infiniteVariance({ i, sum }) {
     const infinite = b => typeof b.interval95 === "string";

@@ -3,6 +3,7 @@
 
 #include "core/image/image_io.h"
 
+#include <filesystem>
 #include <functional>
 #include <string>
 
@@ -15,8 +16,8 @@ struct ExrPart {
 };
 
 // Each part has the header and the channels that encode_exr() gives its picture, called NAME.Combined.R, NAME.stderr.R and so on.
-// All have one size. part(i) is asked for twice for every i, and has to be the same: the headers come first, and not all pictures
-// need to be in memory at once.
-std::string encode_exr_parts(std::size_t count, const std::function<ExrPart(std::size_t)>& part);
+// All have one size. part(i) is asked for twice for every i, and has to be the same: the headers come first, and neither the
+// pictures nor the file need to be in memory at once. Throws std::system_error if the file cannot be written.
+void write_exr_parts(const std::filesystem::path& path, std::size_t count, const std::function<ExrPart(std::size_t)>& part);
 
 }  // namespace neumann

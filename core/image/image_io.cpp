@@ -32,8 +32,8 @@ void expect_pictures() { writer(); }
 std::string encode_exr(const PixelEstimate& picture, const Attributes& attributes) {
     return writer().encode_exr(picture, attributes);
 }
-std::string encode_exr_parts(std::size_t count, const std::function<ExrPart(std::size_t)>& part) {
-    return writer().encode_exr_parts(count, part);
+void write_exr_parts(const std::filesystem::path& path, std::size_t count, const std::function<ExrPart(std::size_t)>& part) {
+    writer().write_exr_parts(path, count, part);
 }
 std::string encode_png(const DisplayImage& picture, const std::string& comment) { return writer().encode_png(picture, comment); }
 std::string encode_gif(const DisplayImage& picture) { return writer().encode_gif(picture); }

@@ -6,11 +6,11 @@
 
 namespace neumann {
 
-void report_bias(const SeriesMoments::Result& result, PathGenerator generator, BounceSeries& series) {
+void report_bias(const Film& film, const SeriesMoments::Result& result, PathGenerator generator, BounceSeries& series) {
     if (!result.has_differences()) return;
-    const auto report = [](const Estimate& picture, double noise) {
+    const auto report = [&](const Estimate& picture, double noise) {
         const double all = relative_discretisation(picture);
-        return report_discretisation(picture,
+        return report_discretisation(film, picture,
                                      {relative_standard_error(picture), std::sqrt(std::max(all * all - noise * noise, 0.0))});
     };
     const auto size = [](const Image& image) {

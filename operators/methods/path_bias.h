@@ -17,6 +17,6 @@ Estimate with_bias(Estimate picture, const Difference& difference, PathGenerator
 // `relative` is without the noise of the difference itself. In the sum that is taken to be, with photon maps, what it is for their
 // kernel if all noise is of photons: its variance is half of the picture's; and with a cache that of the terms, as if they were
 // independent.
-void report_bias(const SeriesMoments::Result& result, PathGenerator generator, BounceSeries& series);
+void report_bias(const Film& film, const SeriesMoments::Result& result, PathGenerator generator, BounceSeries& series);
 
 }  // namespace neumann

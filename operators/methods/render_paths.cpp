@@ -248,7 +248,7 @@ AsSeries as_series(const RenderedSeries& sampled, SeriesReport report, const Met
     }
     const RestVerdict verdict = report.rest_verdict;
     BounceSeries series = bounce_series(sampled, moments, least, settings.generator, std::move(report));
-    report_bias(*moments, settings.generator, series);
+    report_bias(job.scene.film, *moments, settings.generator, series);
     series.paths = paths;
     series.method = as_it_ran(method, settings, job.scene.film);
     series.record = record_of(sampled, settings, verdict, first, job);

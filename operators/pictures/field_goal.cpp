@@ -43,7 +43,8 @@ bool same(const FieldSettings& a, const FieldSettings& b) {
            a.samples == b.samples;
 }
 
-FieldRun make_run(FieldPictures pictures, const FieldSettings& settings, std::vector<Checkpoint> before, double seconds) {
+FieldRun make_run(const Film& film, FieldPictures pictures, const FieldSettings& settings, std::vector<Checkpoint> before,
+                  double seconds) {
     FieldRun run{std::move(pictures), settings, std::move(before), {}};
     run.seconds = seconds;
     Checkpoint checkpoint;
@@ -52,7 +53,7 @@ FieldRun make_run(FieldPictures pictures, const FieldSettings& settings, std::ve
     checkpoint.seconds = seconds;
     const auto judge = [&](const Estimate& picture) {
         const PictureError error = picture_error(picture);
-        run.discretisation.push_back(report_discretisation(picture, error));
+        run.discretisation.push_back(report_discretisation(film, picture, error));
         return error;
     };
     for (std::size_t i = 0; i <= run.pictures.bounces(); ++i) {
@@ -194,7 +195,7 @@ std::optional<FieldRun> render_fields_once(const Scene& scene, const FieldSettin
     auto pictures = render_by(team, scene, settings, watch, saving);
     if (!pictures) return std::nullopt;
     if (saving) saving->has_all();
-    return make_run(std::move(*pictures), settings, {}, clock.seconds());
+    return make_run(scene.film, std::move(*pictures), settings, {}, clock.seconds());
 }
 
 std::optional<FieldRun> render_fields_to_goal(const Scene& scene, FieldSettings settings, const FieldGoal& goal, const Watch& watch,
@@ -257,7 +258,7 @@ std::optional<FieldRun> render_fields_to_goal(const Scene& scene, FieldSettings 
         }
         if (goes_on) saving->from.reset();
         if (saving && !saving->from) saving->has_all();
-        run = make_run(std::move(*pictures), *next, std::move(run.convergence), clock.seconds());
+        run = make_run(scene.film, std::move(*pictures), *next, std::move(run.convergence), clock.seconds());
         steps.add(run, std::max(clock.seconds() - begin, run.pictures.field_seconds + run.pictures.picture_seconds));
     }
 }

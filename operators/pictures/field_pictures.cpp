@@ -1,5 +1,7 @@
 #include "operators/pictures/field_pictures.h"
 
+#include "operators/pictures/path_group.h"
+
 #include <oneapi/tbb/parallel_for.h>
 #include <algorithm>
 #include <cmath>
@@ -165,15 +167,18 @@ PictureError picture_error(const Estimate& picture) {
     return {sampling, std::sqrt(std::max(difference * difference - sampling * sampling, 0.0))};
 }
 
-DiscretisationReport report_discretisation(const Estimate& picture, const PictureError& of_picture) {
+DiscretisationReport report_discretisation(const Film& film, const Estimate& picture, const PictureError& of_picture) {
     DiscretisationReport report;
+    report.worst_x = film.crop_x;
+    report.worst_y = film.crop_y;
     const Image& error = picture.discretisation;
     for (std::size_t i = 0; i < error.pixels.size(); ++i) {
         report.mean += mean_component(error.pixels[i]) / static_cast<double>(error.pixels.size());
         if (max_component(error.pixels[i]) <= report.worst) continue;
         report.worst = max_component(error.pixels[i]);
-        report.worst_x = static_cast<int>(i) % error.width;
-        report.worst_y = static_cast<int>(i) / error.width;
+        const Pixel pixel = pixel_of(film, static_cast<std::uint32_t>(i));
+        report.worst_x = pixel.x;
+        report.worst_y = pixel.y;
     }
     report.relative = of_picture.discretisation;
     return report;

@@ -119,9 +119,9 @@ PictureError picture_error(const Estimate& picture);
 // The estimated discretisation error.
 struct DiscretisationReport {
     double mean = 0.0, worst = 0.0;  // of the error, over pixels and channels, radiance
-    int worst_x = 0, worst_y = 0;    // where the worst is
+    int worst_x = 0, worst_y = 0;    // the pixel of the film where the worst is
     double relative = 0.0;           // √(Σ error² / Σ mean²), with the part from noise subtracted
 };
-DiscretisationReport report_discretisation(const Estimate& picture, const PictureError& error);
+DiscretisationReport report_discretisation(const Film& film, const Estimate& picture, const PictureError& error);
 
 }  // namespace neumann

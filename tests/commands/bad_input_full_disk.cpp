@@ -53,6 +53,14 @@ TEST_F(BadInputFullDisk, AnEarlierSetIsUntouched) {
     }
 }
 
+// It is written without being made in memory first.
+TEST_F(BadInputFullDisk, NoPartOfLayersIsLeft) {
+    const Finished done = run({"render", "scene.xml", "-n", "1", "--spp", "2", "-o", "a", "--files", "layers"}, 50'000);
+    EXPECT_EQ(done.exit_code, 1);
+    EXPECT_TRUE(done.err.starts_with("neumann: a/layers.exr: cannot be written: File too large\n")) << done.err;
+    EXPECT_FALSE(std::filesystem::exists(path("a")));
+}
+
 // All but the page fits, which is the largest file.
 TEST_F(BadInputFullDisk, WhatFitsIsKeptBeside) {
     render("scene.xml", "whole", {"-n", "1", "--spp", "2", "--quiet"});

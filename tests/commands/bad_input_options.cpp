@@ -95,7 +95,8 @@ TEST_F(BadInputOptions, Tree) {
 TEST_F(BadInputOptions, Reuse) {
     EXPECT_EQ(refusal({"--method", "guided", "--reuse"}), "--reuse belongs to --method walk, not to guided\n");
     for (const auto& [option, value] : {std::pair{"--tree", "sum"}, {"--adaptive", "sum"}, {"--split", "2,2"}})
-        EXPECT_EQ(refusal({"--reuse", option, value}), "--reuse needs one walk of each pixel; take it without --tree, --adaptive and --split\n");
+        EXPECT_EQ(refusal({"--reuse", option, value}),
+                  "--reuse needs one walk of each pixel; take it without --tree, --adaptive and --split\n");
 }
 
 TEST_F(BadInputOptions, Photons) {
@@ -135,6 +136,18 @@ TEST_F(BadInputOptions, Caches) {
     EXPECT_EQ(done.err,
               "--method cache keeps records on diffuse surfaces, and paths from the camera meet none; take --method walk\n");
     EXPECT_EQ(names(), (Names{"scene.xml", "mirror.xml"}));
+}
+
+TEST_F(BadInputOptions, Paths) {
+    EXPECT_EQ(refusal({"--paths", "3"}), "--paths 3: expected a pixel, as 19,160, or the word named\n");
+    EXPECT_EQ(refusal({"--paths", "164,0"}), "--paths 164,0: the picture has x from 0 to 163 and y from 0 to 4\n");
+    EXPECT_EQ(refusal({"--paths", "3,4", "--files", "tables"}), "--paths: are for the page; expected page among --files\n");
+    EXPECT_EQ(refusal({"--paths", "named", "--method", "gather"}),
+              "--paths: --method gather has no paths to replay: its bounces are read from fields on patches\n");
+    EXPECT_EQ(refusal({"--paths", "named", "--method", "pointwise"}),
+              "--paths: --method pointwise has no paths to replay: each of its bounces is asked for anew\n");
+    EXPECT_EQ(refusal({"--paths", "named", "--bias-allowed"}),
+              "--paths: --bias-allowed may choose fields on patches, which have no paths; take one of the two\n");
 }
 
 // A goal that no number reaches would never end.

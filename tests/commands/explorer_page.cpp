@@ -24,7 +24,7 @@ std::vector<std::uint8_t> unpacked(const PackedPicture& picture, std::size_t pix
     }
     const std::size_t n = pixels;
     std::size_t size = 6 * n;
-    for (const auto& errors : picture.head.at("errors")) size += errors.at("channels").get<std::size_t>() * n;
+    for (const auto& errors : picture.head.at("errors")) size += errors.at("codes").get<std::size_t>();
     std::vector<std::uint8_t> bytes(size + 1);  // one more would be seen
     uLongf length = bytes.size();
     EXPECT_EQ(uncompress(bytes.data(), &length, reinterpret_cast<const Bytef*>(compressed.data()), compressed.size()), Z_OK);
@@ -41,7 +41,7 @@ std::vector<std::uint8_t> unpacked(const PackedPicture& picture, std::size_t pix
             const auto channels = errors.at("channels").get<std::size_t>();
             for (std::size_t c = 1; c < channels; ++c)
                 bytes[at + c * n + i] = static_cast<std::uint8_t>(bytes[at + c * n + i] + bytes[at + i]);
-            at += channels * n;
+            at += errors.at("codes").get<std::size_t>();
         }
     }
     return bytes;
@@ -129,12 +129,16 @@ TEST(ExplorerPage, PackedPicturesKeepThreeDigits) {
         }
 }
 
-// What patches get wrong is a number a pixel: that of the worst channel, to 6%.
-TEST(ExplorerPage, DiscretisationIsThatOfTheWorstChannel) {
-    PixelEstimate term = Estimate{Image(2, 1), {}};
-    term.discretisation = Image(2, 1);
-    term.discretisation.pixels = {Rgb(0.25, 3.0, 0.5), Rgb(0.0)};
-    PackedSeries packed(2, 1, 1);
+// What patches get wrong is a number for 4 × 4 pixels, that of the worst channel and pixel, to 6%; also at an edge that cuts a
+// block.
+TEST(ExplorerPage, DiscretisationIsThatOfTheWorstOfABlock) {
+    constexpr std::size_t pixels = 5 * 5, first = 6 * pixels;
+    PixelEstimate term = Estimate{Image(5, 5), {}};
+    term.discretisation = Image(5, 5);
+    term.discretisation.at(3, 0) = Rgb(0.25, 3.0, 0.5);
+    term.discretisation.at(0, 3) = Rgb(1.0);
+    term.discretisation.at(4, 4) = Rgb(0.0, 0.0, 0.125);
+    PackedSeries packed(5, 5, 1);
     packed.add_term(0, term);
     packed.pack();
     const PackedPicture& picture = packed.pictures().at(0);
@@ -142,9 +146,33 @@ TEST(ExplorerPage, DiscretisationIsThatOfTheWorstChannel) {
     const auto& scale = picture.head["errors"][0];
     EXPECT_EQ(scale.at("kind"), "term_discretisation");
     EXPECT_EQ(scale.at("channels"), 1);
+    EXPECT_EQ(scale.at("block"), 4);
+    ASSERT_EQ(scale.at("codes"), 4);
+    const auto bytes = unpacked(picture, pixels);
+    EXPECT_NEAR(error_value(scale, bytes[first]), 3.0, 0.06 * 3.0);
+    EXPECT_EQ(bytes[first + 1], 0);
+    EXPECT_EQ(bytes[first + 2], 0);
+    EXPECT_NEAR(error_value(scale, bytes[first + 3]), 0.125, 0.06 * 0.125);
+}
+
+// Where patches get more wrong than noise, means are as coarse as that, and no coarser.
+TEST(ExplorerPage, MeansAreRoundedByAllOfTheirError) {
+    constexpr double mean = 1.0 + 0x1p-9, noise = 0x1p-10, wrong = 0x1p-4;
+    PixelEstimate term = Estimate{Image(2, 1), Image(2, 1), 15.0};
+    term.mean.pixels = {Rgb(mean), Rgb(mean)};
+    term.standard_error.pixels = {Rgb(noise), Rgb(noise)};
+    term.discretisation = Image(2, 1);
+    term.discretisation.pixels = {Rgb(wrong), Rgb(0.0)};
+    PackedSeries packed(2, 1, 1);
+    packed.add_term(0, term);
+    packed.pack();
+    const PackedPicture& picture = packed.pictures().at(0);
     const auto bytes = unpacked(picture, 2);
-    EXPECT_NEAR(error_value(scale, bytes[12]), 3.0, 0.06 * 3.0);
-    EXPECT_EQ(bytes[13], 0);
+    const auto told = [&](std::size_t i) {
+        return std::ldexp(half_value(bytes[i] << 8 | bytes[i + 6]), picture.head.at("exponent"));
+    };
+    EXPECT_EQ(told(0), 1.0);  // a multiple of 2⁻⁷
+    EXPECT_EQ(told(1), mean);
 }
 
 nlohmann::ordered_json small_run(std::size_t bounces) {
@@ -239,7 +267,7 @@ protected:
 
 // As the manual says of a render of 256² pixels, and bounces 0 to 16.
 TEST_F(ExplorerCompare, ARendersPageHasLessThanEightMegabytes) {
-    for (const char* method : {"walk", "matrix"}) {
+    for (const char* method : {"walk", "matrix", "photon"}) {
         const Finished done = run({"render", scene_file("cornell-box"), "-D", "res=256", "-n", "16", "--spp", "16", "--method",
                                    method, "--files", "page", "-o", method, "--quiet"});
         ASSERT_EQ(done.exit_code, 0) << done.err;

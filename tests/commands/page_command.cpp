@@ -143,6 +143,17 @@ TEST_F(PageCommand, PathsOfAPixel) {
     EXPECT_FALSE(data("a").contains("paths"));
 }
 
+// With the bytes of `page --paths`, by methods with a pilot, too.
+TEST_F(PageCommand, RenderPutsThemInItself) {
+    for (const std::string method : {"walk", "corrected", "bidirectional", "mixed"}) {
+        render("scene.xml", "b", {"-n", "2", "--spp", "16", "--method", method, "--quiet", "--paths", "20,2", "--paths", "named"});
+        EXPECT_EQ(data("b").at("paths").at("pixels").at(0).at("pixel"), (std::vector{20, 2})) << method;
+        const auto before = contents("b");
+        page({"b", "--paths", "20,2", "--paths", "named", "--quiet"});
+        EXPECT_EQ(contents("b"), before) << method;
+    }
+}
+
 TEST_F(PageCommand, WhatOtherPixelsBringIsSaid) {
     render("scene.xml", "b", {"-n", "2", "--spp", "16", "--method", "bidirectional", "--quiet"});
     page({"b", "--paths", "20,2", "--files", "page", "--quiet"});

@@ -3,9 +3,14 @@
 #include "core/base/error.h"
 
 #include <gtest/gtest.h>
-#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio.hpp>
 
+#include <sys/resource.h>
+#include <unistd.h>
+#include <chrono>
+#include <ctime>
 #include <sstream>
+#include <thread>
 
 namespace neumann::page_server_test {
 
@@ -74,6 +79,32 @@ TEST(PageServer, AnErrorEndsAConnectionAndNotTheServer) {
     EXPECT_EQ(answer(server, "GET /progress?page=p&after=1"), "");
     server.tell({{"samples", 3}});
     EXPECT_EQ(progress(server, 1).at("samples"), 3);
+}
+
+// Where a connection gets no descriptor the server waits, for less of the processor than a third of the time, and takes it later.
+TEST(PageServer, WaitsForADescriptor) {
+    PageServer server(0);
+    boost::asio::io_context io;
+    tcp::socket client(io, tcp::v4());
+    rlimit all{};
+    ASSERT_EQ(::getrlimit(RLIMIT_NOFILE, &all), 0);
+    const int free = ::dup(0);
+    ::close(free);
+    rlimit none = all;
+    none.rlim_cur = static_cast<rlim_t>(free);
+    ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &none), 0);
+    client.connect({boost::asio::ip::address_v4::loopback(), static_cast<std::uint16_t>(port_of(server))});
+    const std::clock_t before = std::clock();
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    const double seconds = static_cast<double>(std::clock() - before) / CLOCKS_PER_SEC;
+    ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &all), 0);
+    EXPECT_LT(seconds, 0.1);
+    const std::string asked = "GET / HTTP/1.1\r\nHost: 127.0.0.1\r\nConnection: close\r\n\r\n";
+    boost::asio::write(client, boost::asio::buffer(asked));
+    std::string answer;
+    boost::system::error_code end;
+    boost::asio::read(client, boost::asio::dynamic_buffer(answer), end);
+    EXPECT_TRUE(answer.starts_with("HTTP/1.1 200")) << answer;
 }
 
 TEST(PageServer, APortThatIsTakenIsRefused) {

@@ -16,7 +16,7 @@ struct PictureReader {
 
 struct PictureWriter {
     decltype(&neumann::encode_exr) encode_exr;
-    decltype(&neumann::encode_exr_parts) encode_exr_parts;
+    decltype(&neumann::write_exr_parts) write_exr_parts;
     decltype(&neumann::encode_png) encode_png;
     decltype(&neumann::encode_gif) encode_gif;
     decltype(&neumann::find_label_font) find_label_font;

@@ -8,7 +8,7 @@
 namespace neumann::encoders {
 
 std::string encode_exr(const PixelEstimate& picture, const Attributes& attributes);
-std::string encode_exr_parts(std::size_t count, const std::function<ExrPart(std::size_t)>& part);
+void write_exr_parts(const std::filesystem::path& path, std::size_t count, const std::function<ExrPart(std::size_t)>& part);
 std::string encode_png(const DisplayImage& picture, const std::string& comment);
 std::string encode_gif(const DisplayImage& picture);
 std::optional<std::string> find_label_font();

@@ -18,9 +18,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstdio>
 #include <cstdlib>
 #include <limits>
+#include <memory>
 #include <stdexcept>
+#include <system_error>
 
 namespace neumann::encoders {
 
@@ -44,6 +48,36 @@ public:
 private:
     std::string bytes_;
     std::size_t place_ = 0;
+};
+
+// OpenEXR hides what fails when it completes a file in its destructor, so the first error is kept for finish().
+class OnDisk : public Imf::OStream {
+public:
+    explicit OnDisk(const std::filesystem::path& path)
+        : OStream(path.c_str()), file_(std::fopen(path.c_str(), "wbe"), &std::fclose) {
+        expect(file_ != nullptr);
+    }
+
+    void write(const char* bytes, int count) override {
+        const auto size = static_cast<std::size_t>(count);
+        expect(std::fwrite(bytes, 1, size, file_.get()) == size);
+    }
+    std::uint64_t tellp() override { return static_cast<std::uint64_t>(::ftello(file_.get())); }
+    void seekp(std::uint64_t place) override { expect(::fseeko(file_.get(), static_cast<off_t>(place), SEEK_SET) == 0); }
+    void finish() {
+        if (error_ == 0) expect(std::fclose(file_.release()) == 0);
+        if (error_ != 0) throw std::system_error(error_, std::generic_category());
+    }
+
+private:
+    void expect(bool good) {
+        if (good) return;
+        if (error_ == 0) error_ = errno;
+        throw std::system_error(error_, std::generic_category());
+    }
+
+    int error_ = 0;
+    std::unique_ptr<std::FILE, decltype(&std::fclose)> file_;
 };
 
 struct Layer {
@@ -137,14 +171,14 @@ private:
     std::vector<Layer> layers_;
 };
 
-// write(memory) in memory; OpenEXR's exceptions become RunError.
+// write(); OpenEXR's exceptions become RunError.
 template <class Write>
-std::string written(int width, int height, const Write& write) {
+void expect_written(int width, int height, const Write& write) {
     try {
-        Memory memory;
-        write(memory);
-        return memory.take();
+        write();
     } catch (const std::bad_alloc&) {
+        throw;
+    } catch (const std::system_error&) {
         throw;
     } catch (const std::exception& error) {
         throw RunError(fmt::format("OpenEXR cannot write a picture of {}×{}: {}", width, height, error.what()));
@@ -155,35 +189,35 @@ std::string written(int width, int height, const Write& write) {
 
 std::string encode_exr(const PixelEstimate& picture, const Attributes& attributes) {
     const Encoded encoded(picture, attributes);
-    return written(encoded.width, encoded.height, [&](Memory& memory) {
+    Memory memory;
+    expect_written(encoded.width, encoded.height, [&] {
         memory.reserve(encoded.bytes());
         Imf::OutputFile file(memory, encoded.header, 0);
         encoded.write(file);
     });
+    return memory.take();
 }
 
-std::string encode_exr_parts(std::size_t count, const std::function<ExrPart(std::size_t)>& part) {
+void write_exr_parts(const std::filesystem::path& path, std::size_t count, const std::function<ExrPart(std::size_t)>& part) {
     std::vector<Imf::Header> headers;
-    std::size_t bytes = 0;
     for (std::size_t i = 0; i < count; ++i) {
         const ExrPart of = part(i);
-        const Encoded encoded(of.picture, of.attributes, of.name);
-        headers.push_back(encoded.header);
+        headers.push_back(Encoded(of.picture, of.attributes, of.name).header);
         headers.back().setName(of.name);
         headers.back().setType(Imf::SCANLINEIMAGE);
-        bytes += encoded.bytes();
     }
-    if (headers.empty()) throw std::invalid_argument("encode_exr_parts: no pictures");
+    if (headers.empty()) throw std::invalid_argument("write_exr_parts: no pictures");
     const Imath::Box2i window = headers.front().dataWindow();
-    return written(window.max.x + 1, window.max.y + 1, [&](Memory& memory) {
-        memory.reserve(bytes);
-        Imf::MultiPartOutputFile file(memory, headers.data(), static_cast<int>(count), false, 0);
+    OnDisk disk(path);
+    expect_written(window.max.x + 1, window.max.y + 1, [&] {
+        Imf::MultiPartOutputFile file(disk, headers.data(), static_cast<int>(count), false, 0);
         for (std::size_t i = 0; i < count; ++i) {
             const ExrPart of = part(i);
             Imf::OutputPart out(file, static_cast<int>(i));
             Encoded(of.picture, of.attributes, of.name).write(out);
         }
     });
+    disk.finish();
 }
 
 }  // namespace neumann::encoders
