@@ -217,39 +217,46 @@ std::optional<CachePass> RecordTracer::trace(std::uint64_t pass, std::span<std::
     }
     if (!has_rest_) return result;
 
-    // The rest S is what was found so far, c, and what S itself brings: S = c + A S.
-    std::vector<CachePass::Irradiance> first[2], next[2];
+    // The rest S is what was found so far, c, and what S itself brings: S = c + A S. Only its values are read; what it says of
+    // places nearby follows at the end.
+    std::vector<glm::vec3> S[2], next[2];
     for (std::size_t radii = 0; radii < 2; ++radii) {
-        const auto S = result.of(CachePass::Radii(radii), kept_);
-        first[radii].assign(S.begin(), S.end());
+        for (const CachePass::Irradiance& c : result.of(CachePass::Radii(radii), kept_)) S[radii].push_back(c.value);
         next[radii].resize(records);
     }
+    const auto rest = [&](const Rays::Link& link, std::size_t radii) { return S[radii][link.record[radii]]; };
     std::vector<float> change(records), size(records);
-    for (int iteration = 0;; ++iteration) {
+    for (int iteration = 0; records > 0; ++iteration) {
         if (iteration == most_iterations) {
             ++given_up;
-            return result;
+            break;
         }
-        const bool goes_on = for_records(16, [&](std::size_t record, Workspace& work) {
-            for (auto& radiance : work.radiance) radiance.assign(count, glm::vec3(0.0f));
-            reflect(record, work, [&](const Rays::Link& link, std::size_t radii) { return said(link, radii, kept_); });
+        const bool goes_on = for_records(16, [&](std::size_t record, Workspace&) {
             change[record] = size[record] = 0.0f;
             for (std::size_t radii = 0; radii < 2; ++radii) {
-                CachePass::Irradiance& S = next[radii][record];
-                S = irradiance(record, radii, work);
-                S += first[radii][record];
-                const glm::vec3 moved = glm::abs(S.value - result.of(CachePass::Radii(radii), kept_)[record].value);
+                Rgb sum(0.0);
+                for (const Rays::Link& link : std::span(rays.links).subspan(record * count, count))
+                    if (link.bounce > 0) sum += Rgb(link.weight * rest(link, radii));
+                glm::vec3& value = next[radii][record];
+                value = glm::vec3(sum * cells.weight()) + result.of(CachePass::Radii(radii), kept_)[record].value;
+                const glm::vec3 moved = glm::abs(value - S[radii][record]);
                 for (int c = 0; c < 3; ++c) {
                     change[record] = std::max(change[record], moved[c]);
-                    size[record] = std::max(size[record], std::abs(S.value[c]));
+                    size[record] = std::max(size[record], std::abs(value[c]));
                 }
             }
         });
         if (!goes_on) return std::nullopt;
-        for (std::size_t radii = 0; radii < 2; ++radii)
-            std::ranges::copy(next[radii], result.of(CachePass::Radii(radii), kept_).begin());
-        if (records == 0 || *std::ranges::max_element(change) <= converged * *std::ranges::max_element(size)) return result;
+        if (*std::ranges::max_element(change) <= converged * *std::ranges::max_element(size)) break;
+        std::ranges::swap(S, next);
     }
+    const bool goes_on = for_records(16, [&](std::size_t record, Workspace& work) {
+        for (auto& radiance : work.radiance) radiance.assign(count, glm::vec3(0.0f));
+        reflect(record, work, rest);
+        for (std::size_t radii = 0; radii < 2; ++radii)
+            result.of(CachePass::Radii(radii), kept_)[record] += irradiance(record, radii, work);
+    });
+    return goes_on ? std::optional(std::move(result)) : std::nullopt;
 }
 
 }  // namespace neumann

@@ -57,7 +57,7 @@ TEST(CacheClosedScenesSlow, Furnace) {
 // ≤ 4.5, a false alarm in 3000 runs.
 TEST(CacheClosedScenesSlow, SphereClosedByADisc) {
     const Scene scene = read_scene(SCENES "/sphere-segment/sphere-segment.xml", {{"res", "32"}});
-    const Blocks cache(scene, cache_settings(scene, "256"), 8, 64);
+    const Blocks cache(scene, cache_settings(scene, "128"), 8, 64);
     std::vector<double> disc{1.0}, sphere{0.0};
     for (std::size_t i = 1; i <= bounces; ++i) {
         disc.push_back(0.7 * sphere[i - 1]);

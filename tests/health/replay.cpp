@@ -101,7 +101,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(Case{"Walk", "walk"}, Case{"WalkIndependent", "walk:sampler=independent"}, Case{"WalkSplit", "walk:split=3,2"},
                     Case{"WalkTree", "walk:tree=3"}, Case{"WalkReuse", "walk:reuse=true"},
                     Case{"Guided", "guided:patches=100:directions=1024"}, Case{"Corrected", "corrected:patches=100:directions=16"},
-                    Case{"Photon", "photon:photons=1000"}, Case{"Cache", "cache:accuracy=0.1:directions=32"},
+                    Case{"Photon", "photon:photons=1000"}, Case{"Cache", "cache:accuracy=1:directions=16"},
                     Case{"Metropolis", "metropolis:chain=3"}, Case{"Surface", "surface"}, Case{"Classic", "classic"},
                     Case{"Light", "light"}, Case{"LightIndependent", "light:sampler=independent"},
                     Case{"Bidirectional", "bidirectional"}, Case{"BidirectionalSplit", "bidirectional:split=3,2"}),

@@ -139,7 +139,7 @@ TEST(MixedPicturesSlow, AgreeWithOtherMethodsBounceByBounce) {
                           Case{"outdoor", "bidirectional", 128}, Case{"glass-ball", "bidirectional", 128}}) {
         const Scene scene = scene_of(c.scene, 32);
         constexpr std::size_t bounces = 4;
-        const Blocks reference(scene, physics::settings_of(scene, make_method({c.reference, {}}), bounces, fixed_seed, 0.5), 8,
+        const Blocks reference(scene, physics::settings_of(scene, make_method({c.reference, {}}), bounces, fixed_seed), 8,
                                c.replicates);
         const SamplingSettings settings = physics::settings_of(scene, method::Mixed{}, bounces, fixed_seed + 1, 0.5);
         ASSERT_TRUE(settings.mixture);
