@@ -95,7 +95,7 @@ plt.show()
 # by multiple importance sampling (`mis`).
 
 # %%
-room, spp = scene("cornell-box", res=256), 16
+room, spp = scene("cornell-box", res=256), 8
 strategies = ("hemisphere", "cosine", "light", "mis")
 direct = {how: room.render(bounces=3, spp=spp, direct=how, sampler="independent", seed=seed, quiet=True) for how in strategies}
 pictures([direct[how].terms[1] for how in strategies], strategies, white=0.35)
@@ -117,7 +117,7 @@ for i in (1, 2, 3):
         assert abs(b.mean - truth.mean) <= limit(min(b.degrees_of_freedom, truth.degrees_of_freedom)) * both  # six comparisons
 
 # %% [markdown]
-# The figure: bounce 1 by four strategies with 16 samples a pixel, at one exposure. The mean is the same, the noise is not.
+# The figure: bounce 1 by four strategies with 8 samples a pixel, at one exposure. The mean is the same, the noise is not.
 #
 # How noisy a pixel is, a render says itself: each has a standard error, estimated from its own samples. Where ipywidgets is installed,
 # a slider doubles them.
@@ -190,7 +190,7 @@ for m in methods:
     print(f"{m:14s}" + "".join(f"{e / w:8.2f}" for e, w in zip(efficiency[m], efficiency["walk"])))
 
 # %% [markdown]
-# The figure: bounce 2 of the floating panels by five generators, with 16 samples a pixel. The table counts what the noise costs
+# The figure: bounce 2 of the floating panels by five generators, with 8 samples a pixel. The table counts what the noise costs
 # in rays.
 #
 # **Q4.** In bounce 1 the noise of `light` costs some twenty times as many rays as that of `walk`, in bounce 3 hardly more,
