@@ -41,12 +41,11 @@ double error_of_sum(const MixtureCosts& all, const std::vector<double>& errors) 
 }
 
 double least_of(const MixtureCosts& all, const std::vector<double>& errors, double of_sum, LeastError least) {
-    const double largest = *std::ranges::max_element(errors);
-    if (least == LeastError::of_bounces) return largest;
+    if (least == LeastError::of_bounces) return *std::ranges::max_element(errors);
     if (least == LeastError::of_sum) return of_sum;
     double logarithms = std::log(of_sum);
     for (const double e : errors) logarithms += std::log(e);
-    return std::exp(0.5 * (std::log(largest) + logarithms / static_cast<double>(all.errors + 1)));
+    return std::exp(logarithms / static_cast<double>(all.errors + 1));
 }
 
 }  // namespace
@@ -55,8 +54,7 @@ std::vector<double> best_mixture(const MixtureCosts& all, LeastError least) {
     std::vector<double> numbers(all.methods * all.blocks, 1.0), best;
     spend(all, numbers);
     double smallest = std::numeric_limits<double>::infinity();
-    const auto K = static_cast<double>(all.errors);
-    std::vector<double> weights(all.errors), of_largest(all.errors, 1.0 / K);
+    std::vector<double> weights(all.errors, 1.0);
     for (int step = 0; step < steps; ++step) {
         const std::vector<double> P = precisions(all, numbers), errors = errors_with(all, P);
         const double of_sum = error_of_sum(all, errors), size = least_of(all, errors, of_sum, least);
@@ -64,17 +62,17 @@ std::vector<double> best_mixture(const MixtureCosts& all, LeastError least) {
             smallest = size;
             best = numbers;
         }
-        const double largest = *std::ranges::max_element(errors);
-        for (std::size_t k = 0; k < all.errors; ++k) {
-            of_largest[k] *= std::sqrt(errors[k] / largest);
-            weights[k] = all.sizes[k];
-        }
-        const double sum = std::accumulate(of_largest.begin(), of_largest.end(), 0.0);
-        for (double& w : of_largest) w /= sum;
-        if (least == LeastError::of_bounces) weights = of_largest;
-        if (least == LeastError::of_all)
-            for (std::size_t k = 0; k < all.errors; ++k)
-                weights[k] = (1.0 / errors[k] + all.sizes[k] / of_sum) / (K + 1.0) + of_largest[k] / largest;
+        for (std::size_t k = 0; k < all.errors; ++k) switch (least) {
+                case LeastError::of_bounces:
+                    weights[k] *= std::sqrt(errors[k] / size);
+                    break;
+                case LeastError::of_sum:
+                    weights[k] = all.sizes[k];
+                    break;
+                case LeastError::of_all:
+                    weights[k] = 1.0 / errors[k] + all.sizes[k] / of_sum;
+                    break;
+            }
         for (std::size_t m = 0; m < all.methods; ++m) {
             std::vector<double> gains(all.blocks, 0.0);
             for (std::size_t k = 0; k < all.errors; ++k)

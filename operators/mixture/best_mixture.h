@@ -13,11 +13,11 @@
 // error is e² = Σ_k r_k e_k², these λ make least
 //
 //     the sum's error                          λ_k = r_k
-//     the largest of a bounce, M               λ_k = μ_k, with μ_k > 0 only where e_k² = M, Σ μ_k = 1
-//     M times the geometric mean of all K + 1  λ_k ∝ (1/e_k² + r_k/e²) / (K + 1) + μ_k / M
+//     the product of that and all bounces'     λ_k ∝ 1/e_k² + r_k/e²
+//     the largest of a bounce                  λ_k > 0 only for the bounces with the largest error
 //
 // s is found by multiplying s_mb by √(g_mb / c_mb) again and again, as designs of experiments are (Titterington 1976; Yu 2010), and
-// μ by making it larger where the error is, in the same steps. A method that has as many samples in all blocks is multiplied by
+// λ of the largest error by making it larger where the error is above the mean, in the same steps. A method that has as many samples in all blocks is multiplied by
 // √(Σ_b g_mb / Σ_b c_mb).
 // As in MARS (Grittmann et al. 2024), who choose numbers of samples of techniques by pilots; there techniques share their paths'
 // weights, here methods are estimators of their own.
@@ -48,7 +48,9 @@ std::vector<double> best_mixture(const MixtureCosts& costs, LeastError least);
 std::vector<double> weights_of(const MixtureCosts& costs, const std::vector<double>& numbers);
 // e_k² with these numbers.
 std::vector<double> errors_of(const MixtureCosts& costs, const std::vector<double>& numbers);
-// What best_mixture() makes least: the largest e_k², e², or the root of the largest e_k² times the geometric mean of e² and all e_k².
+// What best_mixture() makes least: the largest e_k², e², or the geometric mean of e² and all e_k². (In one method's picture the
+// largest e_k² would count with the last, allocation.h. Here it is what pilots know least, and where a method missed its paths they
+// would trust it.)
 double least_of(const MixtureCosts& costs, const std::vector<double>& numbers, LeastError least);
 // Each method's part of the cost.
 std::vector<double> shares_of(const MixtureCosts& costs, const std::vector<double>& numbers);

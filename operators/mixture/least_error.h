@@ -6,7 +6,7 @@ namespace neumann {
 enum class LeastError {
     of_bounces,  // the largest relative error of a bounce
     of_sum,      // the relative error of the sum of all bounces
-    of_all       // the largest of a bounce times the geometric mean of all these, so that none is bought with much of another
+    of_all       // all of these together, so that none is bought with much of another
 };
 
 }  // namespace neumann

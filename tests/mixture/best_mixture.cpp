@@ -69,7 +69,7 @@ TEST(BestMixture, MakesTheErrorLeastThatIsAskedFor) {
     const std::vector<double> half{0.5, 0.5};
     EXPECT_NEAR(least_of(costs, half, LeastError::of_bounces), 8.0, 1e-9);
     EXPECT_NEAR(least_of(costs, half, LeastError::of_sum), 0.9 * 2.0 + 0.1 * 8.0, 1e-9);
-    EXPECT_NEAR(least_of(costs, half, LeastError::of_all), std::sqrt(8.0 * std::cbrt(2.0 * 8.0 * 2.6)), 1e-9);
+    EXPECT_NEAR(least_of(costs, half, LeastError::of_all), std::cbrt(2.0 * 8.0 * 2.6), 1e-9);
 }
 
 // The second method has as many samples in both blocks, and the first what it needs. With one bounce, of a total precision
