@@ -22,8 +22,8 @@ constexpr std::uint64_t trial_stream = 0x747269616cull;  // another seed than th
 constexpr int trial_width = 48, trial_bounces = 6;       // at most
 constexpr std::uint64_t first_trial_samples = 64;
 constexpr std::uint32_t trial_replicates = 4;
-// Where no method knows its terms, the pilot has so many times as many samples, again and again, up to this part of the rays that the
-// goal affords.
+// Where no method knows its terms, the pilot has so many times as many samples, again and again, up to this part of the rays that
+// the goal affords.
 constexpr std::uint64_t longer = 4;
 constexpr double part_of_render = 0.05;
 
@@ -238,7 +238,8 @@ MethodChoice choose(const method::Auto& open, const Scene& scene, const Goal& go
     }
     // Fields have linear RGB alone and no parts, and choose their samples by themselves where an error is to be reached.
     const bool fields_can = !goal.colors && !goal.part && !(goal.samples && goal.relative_error);
-    if (open.bias_allowed && fields_can) allow_bias(choice, works[best], trials, small, goal, affordable, goal_of_trial(goal, bounces), watch);
+    if (open.bias_allowed && fields_can)
+        allow_bias(choice, works[best], trials, small, goal, affordable, goal_of_trial(goal, bounces), watch);
     const double samples = affordable / (rays_of_bounce * (bounces + 1.0) * scene.film.crop_width * scene.film.crop_height);
     if (samples >= fewest_to_distribute) set_adaptive(choice.method, LeastError::of_all);
     return choice;

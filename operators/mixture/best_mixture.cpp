@@ -82,8 +82,10 @@ std::vector<double> best_mixture(const MixtureCosts& all, LeastError least) {
                 }
             const auto costs = std::span(all.costs).subspan(m * all.blocks, all.blocks);
             const bool even = !all.even.empty() && all.even[m];
-            const double of_all = std::accumulate(gains.begin(), gains.end(), 0.0) / std::accumulate(costs.begin(), costs.end(), 0.0);
-            for (std::size_t b = 0; b < all.blocks; ++b) numbers[m * all.blocks + b] *= std::sqrt(even ? of_all : gains[b] / costs[b]);
+            const double of_all =
+                std::accumulate(gains.begin(), gains.end(), 0.0) / std::accumulate(costs.begin(), costs.end(), 0.0);
+            for (std::size_t b = 0; b < all.blocks; ++b)
+                numbers[m * all.blocks + b] *= std::sqrt(even ? of_all : gains[b] / costs[b]);
         }
         spend(all, numbers);
     }

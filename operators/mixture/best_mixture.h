@@ -17,10 +17,9 @@
 //     the largest of a bounce                  λ_k > 0 only for the bounces with the largest error
 //
 // s is found by multiplying s_mb by √(g_mb / c_mb) again and again, as designs of experiments are (Titterington 1976; Yu 2010), and
-// λ of the largest error by making it larger where the error is above the mean, in the same steps. A method that has as many samples in all blocks is multiplied by
-// √(Σ_b g_mb / Σ_b c_mb).
-// As in MARS (Grittmann et al. 2024), who choose numbers of samples of techniques by pilots; there techniques share their paths'
-// weights, here methods are estimators of their own.
+// λ of the largest error by making it larger where the error is above the mean, in the same steps. A method that has as many
+// samples in all blocks is multiplied by √(Σ_b g_mb / Σ_b c_mb). As in MARS (Grittmann et al. 2024), who choose numbers of samples
+// of techniques by pilots; there techniques share their paths' weights, here methods are estimators of their own.
 #pragma once
 
 #include "operators/mixture/least_error.h"

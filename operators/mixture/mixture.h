@@ -26,7 +26,7 @@ struct Mixture {
         std::shared_ptr<const Approximation> approximation = {};
         LeftOut left_out = {};                              // by the plan
         std::shared_ptr<const Allocation> allocation = {};  // some pixels may have no samples
-        std::int8_t exponent = 0;  // of the samples of all pixels, as an allocation's, where there is none
+        std::int8_t exponent = 0;                           // of the samples of all pixels, as an allocation's, where there is none
         double share = 1.0;                                 // of the work
     };
     std::vector<Part> parts;

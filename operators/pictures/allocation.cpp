@@ -169,9 +169,8 @@ std::shared_ptr<const Allocation> allocate(const Scene& scene, const SamplingSet
     if (least == LeastError::of_all && !(has_bounces && has_sum)) least = has_sum ? LeastError::of_sum : LeastError::of_bounces;
     Allocation allocation{std::vector<std::int8_t>(layout.pixels(), 0), all_rays + *shared};
     if (blocks.variances.empty()) return std::make_shared<const Allocation>(std::move(allocation));
-    const std::vector<std::int8_t> powers =
-        as_powers(best_numbers(blocks, least), blocks.costs,
-                  std::accumulate(blocks.costs.begin(), blocks.costs.end(), 0.0), most_doublings);
+    const std::vector<std::int8_t> powers = as_powers(
+        best_numbers(blocks, least), blocks.costs, std::accumulate(blocks.costs.begin(), blocks.costs.end(), 0.0), most_doublings);
     for (std::uint32_t pixel = 0; pixel < layout.pixels(); ++pixel) allocation.exponents[pixel] = powers[block_of(pixel)];
     return std::make_shared<const Allocation>(std::move(allocation));
 }

@@ -8,8 +8,8 @@
 //     s_b ∝ √(Σ_k λ_k V_kb / c_b),     λ_k ≥ 0,  Σ λ_k = 1,  λ_k > 0 only for the bounces with the largest error;
 //
 // λ is found by making it larger where the error is above the mean, again and again. For the sum there is one V. The largest error
-// of a bounce, M, times the geometric mean of those of all K bounces and of the sum is least where λ_k ∝ 1 / ((K + 1) e_k²) + μ_k / M,
-// with μ as λ for the largest error, and 0 for the sum.
+// of a bounce, M, times the geometric mean of those of all K bounces and of the sum is least where λ_k ∝ 1 / ((K + 1) e_k²) + μ_k /
+// M, with μ as λ for the largest error, and 0 for the sum.
 #pragma once
 
 #include "operators/mixture/least_error.h"

@@ -125,9 +125,7 @@ private:
         const double part = layout_.size(static_cast<std::uint32_t>(pixel)) / static_cast<double>(size_);
         return splats(generator_) ? std::min(part, 1.0) : part;
     }
-    bool samples_are_mixtures(std::size_t q) const {
-        return (reads_fields_ || has_two_radii(generator_)) && q > 1;
-    }
+    bool samples_are_mixtures(std::size_t q) const { return (reads_fields_ || has_two_radii(generator_)) && q > 1; }
     const SampleRange& range(std::size_t pixel, std::size_t q) const { return ranges_->of[pixel * stride_ + q]; }
 
     Rgb difference_nearby(std::size_t pixel, std::size_t q) const {
@@ -202,13 +200,12 @@ LeastErrors::LeastErrors(const Scene& scene, const SamplingSettings& settings, c
       means_at_most_(result.quantities(), 0.0) {
     const double t = student_t_quantile(0.95, result.degrees_of_freedom());
     if (!std::isfinite(t) || series.moments.ranges().of.empty()) return;
-    const bool has_chains = settings.generator == PathGenerator::metropolis ||
-                            (settings.mixture && settings.mixture->has(PathGenerator::metropolis));
+    const bool has_chains =
+        settings.generator == PathGenerator::metropolis || (settings.mixture && settings.mixture->has(PathGenerator::metropolis));
     Look look(scene, settings, series.moments.ranges(), result);
     for (std::size_t q = 0; q < terms_.size(); ++q) {
         // Samples of a pass share its photons or records, and those of a chain its states: they are one.
-        const bool is_shared =
-            (has_two_radii(settings.generator) && q > 1) || (has_chains && q > 0);
+        const bool is_shared = (has_two_radii(settings.generator) && q > 1) || (has_chains && q > 0);
         auto found = look.look(q, static_cast<double>(is_shared ? series.moments.replicates() : series.samples), t);
         terms_[q] = std::move(found.errors);
         means_at_most_[q] = found.mean_at_most;

@@ -40,7 +40,8 @@ struct PlaceInGroup {
 
 class SampleLayout {
 public:
-    // `size`: samples of a pixel; a power of two. `allocation`: null if all pixels have as many. `together`: the pixels of a group at least, if there is no allocation.
+    // `size`: samples of a pixel; a power of two. `allocation`: null if all pixels have as many. `together`: the pixels of a group
+    // at least, if there is no allocation.
     SampleLayout(std::uint32_t pixels, std::uint32_t size, std::shared_ptr<const Allocation> allocation = {},
                  std::uint32_t together = 1);
 

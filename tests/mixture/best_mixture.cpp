@@ -74,8 +74,8 @@ TEST(BestMixture, MakesTheErrorLeastThatIsAskedFor) {
 
 // The second method has as many samples in both blocks, and the first what it needs. With one bounce, of a total precision
 // P_b = s_b / V_b + s / U_b, Σ 1/P_b at Σ c_b s_b + C s given is least where 1/(V_b P_b²) = λ c_b where s_b > 0, and
-// Σ 1/(U_b P_b²) = λ C. Here V = (4, 4), c = (1, 1), U = (1, 16), C = 2: block 2 has P = 1/√(4λ), so that 1/(16 P²) = λ/4, and block 1,
-// whose s_1 = 0, has 1/P² = λ (2 − 1/4), and s = P_1.
+// Σ 1/(U_b P_b²) = λ C. Here V = (4, 4), c = (1, 1), U = (1, 16), C = 2: block 2 has P = 1/√(4λ), so that 1/(16 P²) = λ/4, and
+// block 1, whose s_1 = 0, has 1/P² = λ (2 − 1/4), and s = P_1.
 TEST(BestMixture, GivesAMethodAsManySamplesInAllBlocksWhereItMust) {
     const MixtureCosts costs{2, 1, 2, {4.0, 4.0, 1.0, 16.0}, {1.0, 1.0, 1.0, 1.0}, {1.0}, 4.0, {false, true}};
     const std::vector<double> numbers = best_mixture(costs, LeastError::of_sum);
