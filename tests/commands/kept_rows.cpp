@@ -70,7 +70,7 @@ TEST_F(KeptRows, LoseNothingButTheLastSeconds) {
     std::mt19937 random(1);
     std::uniform_int_distribution<int> wait(0, 200);
     std::size_t went_on = 0, before = 0;
-    for (int death = 0; death < 20; ++death) {
+    for (int death = 0; death < 12; ++death) {
         RunningCommand command = start(keeping);
         // Every other death falls behind rows of its own, however slow the machine is.
         for (int i = 0; death % 2 == 0 && i < 1000 && rays_kept("rows") <= before; ++i)

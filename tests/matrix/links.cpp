@@ -151,7 +151,7 @@ TEST_P(Links, OfASmallLampBalance) {
 }
 
 // What a light from afar brings counts as what arrives.
-TEST(LinksFromAfar, Balance) {
+TEST(LinksFromAfarSlow, Balance) {
     SceneMaker maker;
     maker.add(parallelogram({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}), matte(0.6));
     maker.add(Sphere{{0, 0, 0.5}, 0.4, false}, made_of(Conductor()));
@@ -233,7 +233,7 @@ TEST(LinksFromAfar, AreNotCarriedByAFewPaths) {
 
 // Smooth plastic and holes send light in single directions and in all: seen in a mirror they ask the lamp as well, and each bounce
 // is the walk's, within 4.5 of its standard errors and t of 3 degrees of freedom in 99.9%, in both readings.
-TEST(LinksOfAnyMaterial, AreSeenInAMirrorAsTheyAre) {
+TEST(LinksOfAnyMaterialSlow, AreSeenInAMirrorAsTheyAre) {
     const auto matt = std::make_shared<const Bsdf>(Diffuse(Rgb(0.7)));
     for (const Bsdf& bsdf : {Bsdf(Plastic(1.5, Rgb(0.7), Rgb(1.0), false)), Bsdf(Mask(matt, Rgb(0.6)))}) {
         SceneMaker maker;

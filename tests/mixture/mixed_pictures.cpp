@@ -11,7 +11,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdio>
 
 namespace neumann::mixed_pictures_test {
 
@@ -77,7 +76,7 @@ SamplingSettings patchwork_settings(const Scene& scene, int bounces, std::uint64
 }
 
 // Whatever the weights and numbers: |z| ≤ 4.5 in some 400 comparisons (false alarm 0.3%), 90% within their 95% intervals.
-TEST(MixedPictures, HaveTheMeansOfWalksWhateverTheWeights) {
+TEST(MixedPicturesSlow, HaveTheMeansOfWalksWhateverTheWeights) {
     const Scene scene = scene_of("cornell-box", 24);
     const Blocks walks(scene, physics::settings_of(scene, method::Walk{}, 3, fixed_seed, 0.5), 4, 64);
     const Blocks mixed(scene, patchwork_settings(scene, 3, fixed_seed + 1, 0.5), 4, 64);
@@ -121,58 +120,6 @@ TEST(MixedPictures, ReplayTheirSamples) {
         }
     EXPECT_GT(compared, 50);
     EXPECT_GT(from_lights, 10);
-}
-
-struct Case {
-    const char* scene;
-    const char* reference;
-    std::uint64_t replicates;
-};
-
-// As a pilot mixes them: |z| ≤ 4.5 in all blocks, bounces and channels that the reference knows to 5%, and 92% within their 95%
-// intervals, scene by scene 85% (channels go together: 170 values are about as many as 60, of which three standard deviations are
-// 9%).
-TEST(MixedPicturesSlow, AgreeWithOtherMethodsBounceByBounce) {
-    int within_all = 0, all = 0;
-    for (const Case& c : {Case{"cornell-box", "walk", 32}, Case{"door-ajar", "bidirectional", 64}, Case{"glossy-floor", "walk", 64},
-                          Case{"metal-room", "bidirectional", 128}, Case{"facing-mirrors", "walk", 64},
-                          Case{"outdoor", "bidirectional", 128}, Case{"glass-ball", "bidirectional", 128}}) {
-        const Scene scene = scene_of(c.scene, 32);
-        constexpr std::size_t bounces = 4;
-        const Blocks reference(scene, physics::settings_of(scene, make_method({c.reference, {}}), bounces, fixed_seed), 8,
-                               c.replicates);
-        const SamplingSettings settings = physics::settings_of(scene, method::Mixed{}, bounces, fixed_seed + 1, 0.5);
-        ASSERT_TRUE(settings.mixture);
-        const Blocks mixed(scene, settings, 8, 64);
-        int within = 0, count = 0;
-        double worst = 0.0;
-        for (std::size_t q = 0; q <= bounces; ++q)
-            for (std::size_t b = 0; b < mixed.blocks(); ++b)
-                for (std::size_t channel = 0; channel < 3; ++channel) {
-                    const auto m = mixed.at(b, q, channel, mixed.replicates()), r = reference.at(b, q, channel, c.replicates);
-                    if (r.mean == 0.0 || r.error > 0.05 * r.mean) continue;
-                    const double error = std::hypot(m.error, r.error), off = std::abs(m.mean - r.mean);
-                    if (error == 0.0) {
-                        EXPECT_NEAR(m.mean, r.mean, 1e-9 * r.mean);
-                        continue;
-                    }
-                    within += off <= student_t_quantile(0.95, 63.0) * error;
-                    worst = std::max(worst, off / error);
-                    EXPECT_LE(off, 4.5 * error) << c.scene << ", bounce " << q << ", block " << b << ", channel " << channel << ": "
-                                                << m.mean << " ± " << m.error << ", " << r.mean << " ± " << r.error;
-                    ++count;
-                }
-        std::string parts;
-        for (const Mixture::Part& part : settings.mixture->parts)
-            parts += fmt::format(" {} {:.0f}%", part.method, 100.0 * part.share);
-        std::printf("%s: %d of %d within, largest |z| %.2f;%s\n", c.scene, within, count, worst, parts.c_str());
-        EXPECT_GE(within, 0.85 * count) << c.scene;
-        EXPECT_GE(count, 30) << c.scene;
-        within_all += within;
-        all += count;
-    }
-    std::printf("%d of %d within\n", within_all, all);
-    EXPECT_GE(within_all, 0.92 * all);
 }
 
 }  // namespace neumann::mixed_pictures_test

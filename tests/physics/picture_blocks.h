@@ -11,10 +11,12 @@
 
 namespace neumann::physics {
 
-// Means over blocks of pixels, of each channel and quantity, replicate by replicate.
+// Means over blocks of pixels, of each channel and quantity, replicate by replicate, which are added to `pixels`, too, if it is
+// given.
 class Blocks {
 public:
-    Blocks(const Scene& scene, const SamplingSettings& settings, int block, std::uint64_t replicates)
+    Blocks(const Scene& scene, const SamplingSettings& settings, int block, std::uint64_t replicates,
+           SeriesMoments* pixels = nullptr)
         : terms_(settings.pictures()), replicates_(replicates), generator_(settings.generator) {
         const PictureSampler sampler(scene, settings);
         const std::size_t Q = settings.quantities();
@@ -39,6 +41,7 @@ public:
                     }
             }
             all_.push_back(std::move(of));
+            if (pixels) pixels->add(node);
         }
     }
 

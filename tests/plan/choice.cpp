@@ -110,7 +110,7 @@ TEST(Choice, WhatIsMadeLeastIsHandedOn) {
 }
 
 // In a room of metal a path brings much or nothing, and fields are many times as exact for the same work.
-TEST(Choice, ABiasIsTakenOnlyWhereItIsAllowed) {
+TEST(ChoiceSlow, ABiasIsTakenOnlyWhereItIsAllowed) {
     const Scene scene = of_file("metal-room");
     method::Auto open;
     Goal goal;

@@ -114,17 +114,20 @@ TEST_P(SharedSamplingOf, HasTheSameBits) {
     }
 }
 
+std::string name_of(const testing::TestParamInfo<const char*>& info) {
+    std::string name(info.param);
+    std::ranges::replace_if(
+        name, [](char c) { return !std::isalnum(c); }, '_');
+    return name;
+}
 INSTANTIATE_TEST_SUITE_P(Methods, SharedSamplingOf,
                          testing::Values("walk", "walk:adaptive=all", "walk:reuse=true", "walk:tree=sum", "pointwise", "light",
-                                         "bidirectional", "guided:patches=200:directions=1024",
-                                         "corrected:patches=60:directions=16", "photon:photons=1000",
-                                         "cache:accuracy=0.5:directions=16", "metropolis:chain=16", "mixed"),
-                         [](const auto& info) {
-                             std::string name(info.param);
-                             std::ranges::replace_if(
-                                 name, [](char c) { return !std::isalnum(c); }, '_');
-                             return name;
-                         });
+                                         "bidirectional", "guided:patches=200:directions=1024", "photon:photons=1000",
+                                         "metropolis:chain=16"),
+                         name_of);
+INSTANTIATE_TEST_SUITE_P(MethodsSlow, SharedSamplingOf,
+                         testing::Values("corrected:patches=60:directions=16", "cache:accuracy=0.5:directions=16", "mixed"),
+                         name_of);
 
 // A part of the samples, whose first replicate is not the first of all.
 TEST(SharedSampling, TakesAPart) {
@@ -143,7 +146,7 @@ TEST(SharedSampling, IsStoppedAndDropsWhatIsUnderWay) {
     LateHelpers helpers(sampler, 2);
     std::atomic<int> calls = 0;
     Watch watch;
-    watch.stop = [&] { return ++calls > 100; };
+    watch.stop = [&] { return ++calls > 30; };
     const RenderedSeries stopped = render_series(scene, how, {.samples = std::uint64_t{1} << 30}, watch, {}, &helpers);
     EXPECT_EQ(stopped.outcome, Outcome::interrupted);
     EXPECT_GT(stopped.samples, 0u);

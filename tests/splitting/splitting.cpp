@@ -100,7 +100,7 @@ TEST(TreeNumbers, CostWhatTheyCostInRenders) {
 // The parts of the variance add up to that of a path, and splitting at the first vertex divides all of them but the first. Beside
 // renders with one, four and sixteen walks from it, whose variance is told by 2048 samples and more of each of 144 pixels; both
 // sides are known to some 2%, and are allowed 10% (passed over five seeds with 6% at most).
-TEST(TreePilot, PredictsTheVarianceOfSplitRenders) {
+TEST(TreePilotSlow, PredictsTheVarianceOfSplitRenders) {
     const Scene scene = read_scene(SCENES "/cornell-box/cornell-box.xml", {{"res", "12"}});
     constexpr int bounces = 2;
     const TreePilot pilot = measure_tree(scene, bounces, 4096, fixed_seed);
@@ -167,21 +167,21 @@ TEST(TreeWalkSlow, HasTheTermsOfTheWalk) {
 }
 
 // Whatever finds the light at the last reflection, it is found once: the mean of the picture, |z| ≤ 4.5 in 9 comparisons whose
-// errors are 5% at most; what is counted twice is off by 100%.
-TEST(TreeWalk, FindsLightOnceByAllStrategies) {
+// errors are 10% at most; what is counted twice is off by 100%.
+TEST(TreeWalkSlow, FindsLightOnceByAllStrategies) {
     const Scene scene = read_scene(SCENES "/cornell-box/cornell-box.xml", {{"res", "16"}});
     for (const DirectLight direct : {DirectLight::light, DirectLight::surfaces, DirectLight::cosine}) {
         SamplingSettings settings{.walk = {.bounces = 3, .direct = {.direct = direct}, .rest_probability = 0.5},
                                   .seed = fixed_seed,
                                   .replicate_size = 16};
-        const Blocks exact(scene, settings, 16, 384);
+        const Blocks exact(scene, settings, 16, 128);
         settings.seed = fixed_seed + 1;
         settings.tree = std::make_shared<const TreeRatios>(TreeRatios{{1.5, 0.7, 1.5}});
-        const Blocks tree(scene, settings, 16, 384);
+        const Blocks tree(scene, settings, 16, 128);
         for (std::size_t q = 1; q <= 3; ++q) {
-            const auto x = exact.at(0, q, 1, 384), y = tree.at(0, q, 1, 384);
+            const auto x = exact.at(0, q, 1, 128), y = tree.at(0, q, 1, 128);
             EXPECT_LE(std::abs(x.mean - y.mean), 4.5 * std::hypot(x.error, y.error)) << q;
-            EXPECT_LE(std::hypot(x.error, y.error), 0.05 * x.mean) << "what this test can see";
+            EXPECT_LE(std::hypot(x.error, y.error), 0.1 * x.mean) << "what this test can see";
         }
     }
 }

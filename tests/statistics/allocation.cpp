@@ -134,7 +134,7 @@ TEST(SampleLayout, GivesEachPathANameAndFindsItAgain) {
 
 // Whatever the numbers of samples are, means stay and errors are those of the samples that are there: the same blocks with and
 // without, |z| ≤ 4.5 in about 350 comparisons (false alarm 0.3%), and 92% … 98% within their 95% intervals.
-TEST(Allocation, LeavesMeansAndErrorsRight) {
+TEST(AllocationSlow, LeavesMeansAndErrorsRight) {
     const Scene scene = read_scene(SCENES "/cornell-box/cornell-box.xml", {{"res", "24"}});
     for (const Method& method :
          std::vector<Method>{method::Walk{}, method::Bidirectional{}, method::Guided{}, method::Corrected{}}) {

@@ -105,7 +105,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, CorrectedFieldsSlow,
                          });
 
 // Nothing depends on the quality of the fields: from a ray for each of a few patches, 170% off.
-TEST(CorrectedFields, AreUnbiasedFromBadFields) {
+TEST(CorrectedFieldsSlow, AreUnbiasedFromBadFields) {
     const Scene scene = stock_scene("mitsuba-cornell", 8);
     const auto walk = sample(scene, walk_settings(3, 32, fixed_seed, 0.5), 256);
     const auto corrected = sample(scene, corrected_settings(scene, 3, 8, fixed_seed + 1, 0.5, 10, 1), 128);

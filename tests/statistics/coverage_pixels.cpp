@@ -154,7 +154,7 @@ void expect_right(const Count& c, const char* what) {
 
 constexpr double open_from = 0.0, open_to = 30.0;
 
-TEST(PixelCoverage, WhereALampGoesDownBehindAScreen) {
+TEST(PixelCoverageSlow, WhereALampGoesDownBehindAScreen) {
     const Scene scene = hidden_lamp(0.6, 24, open_from, open_to);
     const auto exact = truth(scene, open_from, open_to);
     expect_right(count_and_print("walk, Sobol", scene, exact, PathGenerator::walk, SamplerKind::sobol), "Sobol");
@@ -163,7 +163,7 @@ TEST(PixelCoverage, WhereALampGoesDownBehindAScreen) {
                  "bidirectional");
 }
 
-TEST(PixelCoverage, OfASliver) {
+TEST(PixelCoverageSlow, OfASliver) {
     const double half = 0.0075;
     const Scene scene = hidden_lamp(0.2, 24, -half, half);
     const auto exact = truth(scene, -half, half);

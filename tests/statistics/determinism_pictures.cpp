@@ -217,8 +217,10 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"BidirectionalIndependent", "bidirectional:sampler=independent"},
                     Case{"BidirectionalSobol", "bidirectional:sampler=sobol"}, Case{"Guided", "guided:patches=200:directions=1024"},
                     Case{"Corrected", "corrected:patches=60:directions=16"}, Case{"Photon", "photon:photons=1000"},
-                    Case{"PhotonGather", "photon:photons=1000:gather=true"}, Case{"Cache", "cache:accuracy=0.5:directions=16"},
-                    Case{"Metropolis", "metropolis:chain=16"}, Case{"Mixed", "mixed"}),
+                    Case{"PhotonGather", "photon:photons=1000:gather=true"}, Case{"Metropolis", "metropolis:chain=16"}),
     [](const auto& info) { return std::string(info.param.name); });
+INSTANTIATE_TEST_SUITE_P(AllWaysSlow, Determinism,
+                         testing::Values(Case{"Cache", "cache:accuracy=0.5:directions=16"}, Case{"Mixed", "mixed"}),
+                         [](const auto& info) { return std::string(info.param.name); });
 
 }  // namespace neumann::determinism_pictures_test

@@ -1,0 +1,38 @@
+#include "operators/methods/method_options.h"
+#include "tests/agreement/reference.h"
+#include "tests/physics/seed.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cstdio>
+
+namespace neumann::agreement::photon_test {
+
+using physics::Blocks;
+
+// Within t SE + bias in 95% of all blocks, bounces and channels, and in 90% of those of a scene. Blocks that the reference does not
+// know to 2% are left out. Values of a scene go together (the channels have the same photons, and neighbours share some), so that
+// 150 of them are about as many as 50: 90% leaves 1.6 standard deviations of their number, with intervals that are wider than 95%
+// by the bias. Passed over five seeds.
+TEST(PhotonPicturesSlow, AreWithinTheirStatedErrors) {
+    Count all;
+    for (const char* name : {"cornell-box", "glass-ball", "door-ajar", "glossy-floor", "metal-room", "facing-mirrors", "outdoor"}) {
+        const Reference& exact = reference(name);
+        for (const char* gather : {"false", "true"}) {
+            const Blocks photons(
+                exact.scene,
+                physics::settings_of(exact.scene, make_method({"photon", {{"gather", gather}, {"photons", "16384"}}}), bounces,
+                                     physics::fixed_seed + 1, 0.5),
+                block, 128);
+            const Count count = compare(photons, exact, 0.02, fmt::format("photon, gather {},", gather), true,
+                                        [&](auto b, auto q, auto channel) { return photons.at(b, q, channel, 128).bias; });
+            EXPECT_GE(count.within, 0.9 * count.all) << name << ", gather " << gather;
+            all += count;
+        }
+    }
+    std::printf("%d of %d within\n", all.within, all.all);
+    EXPECT_GE(all.within, 0.95 * all.all);
+}
+
+}  // namespace neumann::agreement::photon_test

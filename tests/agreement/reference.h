@@ -1,0 +1,39 @@
+// What methods are compared with, bounce by bounce: pictures of 32×32 pixels by a method that makes all the paths of a scene well.
+#pragma once
+
+#include "tests/physics/picture_blocks.h"
+
+#include <string>
+
+namespace neumann::agreement {
+
+inline constexpr std::size_t bounces = 4;
+inline constexpr int block = 8;  // blocks of 8×8 pixels
+
+struct Reference {
+    std::string name;
+    Scene scene;
+    bool knows_rest;  // walks from the camera measure it, and may be too rare for it where the terms have paths from both ends
+    physics::Blocks blocks;
+    SeriesMoments::Result pixels;
+};
+
+// Made once. Its seed is the fixed one, so that other pictures need another.
+const Reference& reference(const std::string& scene);
+
+struct Count {
+    int within = 0, all = 0;
+    void operator+=(const Count& other) { within += other.within, all += other.all; }
+};
+
+// The bias that a method states of the mean of a block, for a term and a channel.
+using StatedBias = std::function<double(std::size_t block, std::size_t term, std::size_t channel)>;
+
+// All terms of all blocks, in each channel, and the rest if the reference knows it; values are left out that the reference does not
+// know to a part of `known`. Where both are exact they are the same; elsewhere |found − reference| ≤ 4.5 SE + 2 bias is expected,
+// and counted how many are within t SE + bias, 95% of them in the long run. `what` names the method.
+Count compare(
+    const physics::Blocks& found, const Reference& reference, double known, const std::string& what, bool with_rest = true,
+    const StatedBias& bias = [](std::size_t, std::size_t, std::size_t) { return 0.0; });
+
+}  // namespace neumann::agreement
