@@ -23,7 +23,7 @@ TEST(MixedPicturesSlow, AgreeWithOtherMethodsBounceByBounce) {
         std::string parts;
         for (const Mixture::Part& part : settings.mixture->parts)
             parts += fmt::format(" {} {:.0f}%", part.method, 100.0 * part.share);
-        const Count count = compare(Blocks(exact.scene, settings, block, 64), exact, 0.05, fmt::format("mixed,{},", parts), false);
+        const Count count = compare(Blocks(exact.scene, settings, block, 64), exact, 0.05, fmt::format("mixed,{},", parts));
         EXPECT_GE(count.within, 0.85 * count.all) << name;
         all += count;
     }

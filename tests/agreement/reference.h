@@ -15,7 +15,7 @@ struct Reference {
     Scene scene;
     bool knows_rest;  // walks from the camera measure it, and may be too rare for it where the terms have paths from both ends
     physics::Blocks blocks;
-    SeriesMoments::Result pixels;
+    SeriesMoments::Result pixels;  // of the same paths, or of paths from both ends where walks meet caustics rarely
 };
 
 // Made once. Its seed is the fixed one, so that other pictures need another.
@@ -30,10 +30,11 @@ struct Count {
 using StatedBias = std::function<double(std::size_t block, std::size_t term, std::size_t channel)>;
 
 // All terms of all blocks, in each channel, and the rest if the reference knows it; values are left out that the reference does not
-// know to a part of `known`. Where both are exact they are the same; elsewhere |found − reference| ≤ 4.5 SE + 2 bias is expected,
-// and counted how many are within t SE + bias, 95% of them in the long run. `what` names the method.
+// know to a part of `known`. Where both are exact they are the same;
+// elsewhere |found − reference| ≤ 4.5 SE + 2 bias is expected, and counted how many are within t SE + bias, 95% of them in the long
+// run. `what` names the method.
 Count compare(
-    const physics::Blocks& found, const Reference& reference, double known, const std::string& what, bool with_rest = true,
+    const physics::Blocks& found, const Reference& reference, double known, const std::string& what,
     const StatedBias& bias = [](std::size_t, std::size_t, std::size_t) { return 0.0; });
 
 }  // namespace neumann::agreement
