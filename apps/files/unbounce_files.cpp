@@ -87,6 +87,9 @@ std::string term_exr(const Unbounced& found, std::size_t n) {
 LightFolder read_light_folder(const std::string& folder) {
     const std::vector<std::string> files = files_in(folder);
     LightFolder result{beginning_with(files, "light_"), beginning_with(files, "direct_"), beginning_with(files, "forward_"), {}};
+    if (result.lights.empty() && fs::exists(fs::path(folder) / "run.json"))
+        throw InputError(
+            folder + ": the bounces of a render; expected pictures under separate lights, or the scene, which is then rendered so");
     if (result.lights.empty())
         result.lights = files;
     else

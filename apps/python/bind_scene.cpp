@@ -1,4 +1,5 @@
 // Reads scenes and returns information about them.
+#include "apps/command_line/scenes_along.h"
 #include "apps/commands/print_warnings.h"
 #include "apps/files/plan_json.h"
 #include "apps/python/module.h"
@@ -113,7 +114,7 @@ void bind_scene(py::module_& m) {
     m.def(
         "load",
         [](const std::string& path, const std::map<std::string, std::string>& definitions, bool lenient) {
-            return load({path, definitions, lenient});
+            return load({scene_along(path), definitions, lenient});
         },
         py::arg("path"), py::arg("definitions"), py::arg("lenient"), py::call_guard<py::gil_scoped_release>());
     m.def("load_elements", &load_elements, py::arg("name"), py::arg("root"), py::arg("meshes"), py::arg("text"),

@@ -30,6 +30,11 @@ class Render(Case):
         for name in ("_terms", "_sums", "_rest"):
             self.assertEqual(getattr(a, name)[-1], getattr(b, name)[-1], name)  # the means
 
+    def test_a_scene_that_comes_along(self):
+        self.assertEqual(neumann.load("furnace", res=4).path, scene_file("furnace"))
+        with self.assertRaisesRegex(neumann.InputError, "^furnce: there is no such file"):
+            neumann.load("furnce")
+
     def test_shapes(self):
         series = cornell().render(bounces=3, spp=8)
         self.assertEqual(series.terms.shape, (4, 16, 16, 3))

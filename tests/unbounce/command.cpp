@@ -91,6 +91,11 @@ TEST_F(UnbounceCommand, BadInput) {
     std::filesystem::create_directories(path("empty"));
     EXPECT_EQ(refused({"unbounce", "empty"}), "empty: no .exr in this folder; expected a picture for each of several lights\n");
     EXPECT_TRUE(std::filesystem::is_empty(path("empty")));
+    write_picture("a/bounce_000.exr", 1.0, 1.0);
+    write_picture("a/bounce_001.exr", 1.0, 1.0);
+    write("a/run.json", "{}");
+    EXPECT_EQ(refused({"unbounce", "a"}),
+              "a: the bounces of a render; expected pictures under separate lights, or the scene, which is then rendered so\n");
     write_picture("one/a.exr", 1.0, 1.0);
     EXPECT_EQ(refused({"unbounce", "one"}), "a.exr is the only picture; expected one for each of at least two lights\n");
     write_two("sizes");

@@ -253,7 +253,8 @@ class Scene(RayQueries, OnPatches):
 
 
 def load(path: Path, *, lenient: bool = False, **overrides: Any) -> Scene:
-    """Reads a Mitsuba 3 scene file; ``overrides`` are values for the names that it defines: ``load("furnace.xml", albedo=0.9)``.
+    """Reads a scene file, or a scene that comes along by its name; ``overrides`` are values for the names that it defines:
+    ``load("furnace.xml", albedo=0.9)``, ``load("cornell-box", res=64)``.
 
     Raises InputError, 'file:line:column: what is wrong, what was expected', for what is not supported, unknown, misspelt or never read.
     With ``lenient`` what is not known is no error: materials become grey and diffuse, lights, shapes and parameters are left out, each is
