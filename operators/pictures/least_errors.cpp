@@ -3,6 +3,7 @@
 #include "operators/mixture/mixture.h"
 #include "operators/pictures/missing_paths.h"
 #include "operators/pictures/reachable_light.h"
+#include "operators/statistics/few_events.h"
 #include "operators/statistics/student_t.h"
 
 #include <oneapi/tbb/blocked_range.h>
@@ -58,12 +59,18 @@ void for_neighbourhood(int width, int height, std::size_t pixel, const F& f) {
             f(static_cast<std::size_t>(v) * static_cast<std::size_t>(width) + static_cast<std::size_t>(u));
 }
 
+bool has_chains(const SamplingSettings& settings) {
+    return settings.generator == PathGenerator::metropolis ||
+           (settings.mixture && settings.mixture->has(PathGenerator::metropolis));
+}
+
 // Computes the bounds of one series, quantity by quantity.
 class Look {
 public:
     Look(const Scene& scene, const SamplingSettings& settings, const SampleRanges& ranges, const SeriesMoments::Result& result)
         : scene_(&scene),
           generator_(settings.generator),
+          has_chains_(has_chains(settings)),
           reads_fields_(settings.approximation || (settings.mixture && settings.mixture->has(PathGenerator::corrected))),
           result_(&result),
           ranges_(&ranges),
@@ -85,11 +92,13 @@ public:
         const Estimate term = result_->term(q);
         const std::size_t pixels = result_->pixels();
         remember_largest(q);
+        const Rgb in_picture = has_chains_ && q > 0 ? weight_in_picture(term) : Rgb(0.0);
         std::vector<float> errors(3 * pixels);
         std::vector<Rgb> differences(pixels, Rgb(0.0));  // D of the pixels whose samples are all 0
         oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::size_t>(0, pixels, 1024), [&](const auto& range) {
             for (std::size_t pixel = range.begin(); pixel < range.end(); ++pixel) {
                 const Rgb nearby = difference_nearby(pixel, q);
+                const Rgb weight = weight_nearby(term, pixel, in_picture);
                 const double part = part_of_samples(pixel);
                 for (int c = 0; c < 3; ++c) {
                     const double mean = term.mean.pixels[pixel][c], error = term.standard_error.pixels[pixel][c];
@@ -100,8 +109,8 @@ public:
                     }
                     if (d == 0.0) continue;
                     const bool agree = error <= agreement * std::abs(mean);
-                    if (!agree && samples_are_mixtures(q)) continue;
-                    double h = (agree ? rule_of_three : 1.0) * d / (samples * part);
+                    double h = expectation_above(mean, error * error, weight[c]);
+                    if (agree || !samples_are_mixtures(q)) h = std::max(h, (agree ? rule_of_three : 1.0) * d / (samples * part));
                     if (mean == 0.0) h = std::min(h, bounds_[q][c]);
                     errors[3 * pixel + static_cast<std::size_t>(c)] = static_cast<float>(h / t);
                 }
@@ -137,6 +146,32 @@ private:
             if (d > float_rounding * std::max(std::abs(smallest), std::abs(largest))) difference[c] = d;
         }
         return difference;
+    }
+    // All states of a bounce's chains bring the same, and a chain stays somewhere for a while: such a stay is an event, which
+    // weighs about the same everywhere in a picture (within a factor of four over the blocks of door-ajar, whose means go from 1e-6
+    // to 0.04).
+    static Rgb weight_in_picture(const Estimate& term) {
+        Rgb weight(0.0);
+        for (int c = 0; c < 3; ++c) {
+            Events all;
+            for (std::size_t pixel = 0; pixel < term.mean.pixels.size(); ++pixel) add(term, pixel, c, all);
+            weight[c] = all.weight();
+        }
+        return weight;
+    }
+    Rgb weight_nearby(const Estimate& term, std::size_t pixel, const Rgb& in_picture) const {
+        Rgb weight(0.0);
+        for (int c = 0; c < 3; ++c) {
+            if (in_picture[c] == 0.0) continue;
+            Events nearby;
+            for_neighbourhood(result_->width(), result_->height(), pixel, [&](std::size_t other) { add(term, other, c, nearby); });
+            weight[c] = nearby.and_one_of(in_picture[c]).weight();
+        }
+        return weight;
+    }
+    static void add(const Estimate& term, std::size_t pixel, int c, Events& events) {
+        const double error = term.standard_error.pixels[pixel][c];
+        events.add(term.mean.pixels[pixel][c], error * error);
     }
     // D if all samples of the pixel and its neighbours are 0.
     double difference_elsewhere(std::size_t pixel, std::size_t q, int c) const {
@@ -178,7 +213,7 @@ private:
 
     const Scene* scene_;
     PathGenerator generator_;
-    bool reads_fields_;
+    bool has_chains_, reads_fields_;
     const SeriesMoments::Result* result_;
     const SampleRanges* ranges_;
     std::size_t quantities_, stride_;
@@ -200,12 +235,10 @@ LeastErrors::LeastErrors(const Scene& scene, const SamplingSettings& settings, c
       means_at_most_(result.quantities(), 0.0) {
     const double t = student_t_quantile(0.95, result.degrees_of_freedom());
     if (!std::isfinite(t) || series.moments.ranges().of.empty()) return;
-    const bool has_chains =
-        settings.generator == PathGenerator::metropolis || (settings.mixture && settings.mixture->has(PathGenerator::metropolis));
     Look look(scene, settings, series.moments.ranges(), result);
     for (std::size_t q = 0; q < terms_.size(); ++q) {
         // Samples of a pass share its photons or records, and those of a chain its states: they are one.
-        const bool is_shared = (has_two_radii(settings.generator) && q > 1) || (has_chains && q > 0);
+        const bool is_shared = (has_two_radii(settings.generator) && q > 1) || (has_chains(settings) && q > 0);
         auto found = look.look(q, static_cast<double>(is_shared ? series.moments.replicates() : series.samples), t);
         terms_[q] = std::move(found.errors);
         means_at_most_[q] = found.mean_at_most;

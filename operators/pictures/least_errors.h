@@ -6,6 +6,7 @@
 //           h = D/n        otherwise: one sample more or less. Replicates of stratified samples often meet something equally often
 //                          although their expectation lies a little higher, and their spread does not show that. (Not in bounces
 //                          from 2 on by corrected fields: such a sample is a mean of several rays that read fields everywhere.)
+//           h as few events leave open (few_events.h), if that is more, in bounces by chains: a chain's stay is an event
 //
 // with n samples per pixel, t of the 95% interval, and D the largest minus the smallest sample of the pixel and its eight
 // neighbours. If these are all 0 but light may be there, D is the largest sample of this bounce in the picture; failing that, of an

@@ -27,8 +27,10 @@ TEST(CachePicturesSlow, AreWithinTheirStatedErrors) {
             physics::settings_of(exact.scene, make_method({"cache", {{"records", c.records}, {"directions", "128"}}}), bounces,
                                  physics::fixed_seed + 1, 0.5),
             block, 24);
-        const Count count = compare(cache, exact, 0.02, fmt::format("cache, {},", c.records),
-                                    [&](auto b, auto q, auto channel) { return cache.stated_bias(b, q, channel); });
+        const Count count = compare(
+            cache, exact, {.what = fmt::format("cache, {},", c.records), .known = 0.02, .bias = [&](auto b, auto q, auto channel) {
+                               return cache.stated_bias(b, q, channel);
+                           }});
         EXPECT_GE(count.within, 0.85 * count.all) << c.scene << ", " << c.records;
         all += count;
     }

@@ -1,32 +1,76 @@
+#include "core/image/pixel_estimate.h"
 #include "operators/methods/method_options.h"
+#include "operators/pictures/least_errors.h"
+#include "operators/statistics/student_t.h"
 #include "tests/agreement/reference.h"
 #include "tests/physics/seed.h"
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdio>
 
 namespace neumann::agreement::metropolis_test {
 
 using physics::Blocks;
 
-// 95% of intervals hold the other method's mean: with this seed 1135 of 1217 do. Values of a scene go together, for all blocks of a
-// replicate share the brightness of a bounce and channels their paths, so that 170 of them are about as many as 25: 80% leaves 3
-// standard deviations of their number, and 91% of all leaves 2.5 of some 160. With references of a quarter of the samples five
-// other seeds had |z| up to 4.51. With these one of three had 5.7, in a block of door-ajar that is nearly dark: few of the
-// replicates have a state there, and their spread does not tell the error.
+// 95% of intervals hold the other method's mean. Values of a scene go together, for all blocks of a replicate share the brightness
+// of a bounce and channels their paths, so that 170 of them are about as many as 25: 80% leaves 3 standard deviations of their
+// number, and 91% of all leaves 2.5 of some 160. Passed over eight seeds: 94 to 96%; in one of them a block of glass-ball was up
+// to 8.9 SE off and one of metal-room 4.5, and looked at again 4.35 and 4.34.
 TEST(MetropolisPicturesSlow, AgreeWithOtherMethodsBounceByBounce) {
     Count all;
     for (const char* name : {"cornell-box", "glass-ball", "door-ajar", "glossy-floor", "metal-room", "facing-mirrors", "outdoor"}) {
         const Reference& exact = reference(name);
-        const Blocks chains(
-            exact.scene, physics::settings_of(exact.scene, method::Metropolis{}, bounces, physics::fixed_seed + 1, 0.5), block, 48);
-        const Count count = compare(chains, exact, 0.05, "metropolis");
+        const auto chains = [&](std::uint64_t seed, std::uint64_t replicates) {
+            return Blocks(exact.scene,
+                          physics::settings_of(exact.scene, method::Metropolis{}, bounces, physics::fixed_seed + seed, 0.5), block,
+                          replicates);
+        };
+        const Count count =
+            compare(chains(1, 48), exact,
+                    {.what = "metropolis", .known = 0.05, .by_chains = true, .once_more = [&] { return chains(2, 192); }});
         EXPECT_GE(count.within, 0.8 * count.all) << name;
         all += count;
     }
     std::printf("%d of %d within\n", all.within, all.all);
     EXPECT_GE(all.within, 0.91 * all.all);
+}
+
+// Behind the door few replicates have a state in a pixel. The intervals of single pixels hold what other paths find in 95%, and in
+// 90% of those whose spread is more than half of their mean, or that no state has met; by the spread alone these hold less.
+TEST(MetropolisPicturesSlow, ErrorsOfDarkPixelsHold) {
+    const Reference& exact = reference("door-ajar");
+    const SamplingSettings settings =
+        physics::settings_of(exact.scene, method::Metropolis{}, bounces, physics::fixed_seed + 1, 0.5);
+    const RenderedSeries series = render_series(exact.scene, settings, {48 * settings.replicate_size, std::nullopt, std::nullopt});
+    const auto result = series.moments.result();
+    const LeastErrors least(exact.scene, settings, series, result);
+    const double t = student_t_quantile(0.95, result.degrees_of_freedom());
+    Count all, dark, dark_by_spread;
+    for (std::size_t q = 1; q <= bounces; ++q) {
+        PixelEstimate found = result.term(q);
+        found.least_error = least.of_term(q);
+        const Image errors = found.pixel_errors();
+        const Estimate known = exact.pixels.term(q);
+        for (std::size_t pixel = 0; pixel < result.pixels(); ++pixel)
+            for (int c = 0; c < 3; ++c) {
+                const double mean = found.mean.pixels[pixel][c], spread = found.standard_error.pixels[pixel][c],
+                             expected = known.mean.pixels[pixel][c], error = known.standard_error.pixels[pixel][c];
+                if (expected == 0.0 || error > 0.1 * expected) continue;
+                const auto holds = [&](double e) { return std::abs(mean - expected) <= t * std::hypot(e, error) ? 1 : 0; };
+                all += Count{holds(errors.pixels[pixel][c]), 1};
+                if (spread < 0.5 * mean) continue;
+                dark += Count{holds(errors.pixels[pixel][c]), 1};
+                dark_by_spread += {holds(spread), 1};
+            }
+    }
+    std::printf("%d of %d hold; where it is dark %d of %d, by their spread %d\n", all.within, all.all, dark.within, dark.all,
+                dark_by_spread.within);
+    EXPECT_GE(dark.all, 300);
+    EXPECT_GE(all.within, 0.95 * all.all);
+    EXPECT_GE(dark.within, 0.9 * dark.all);
+    EXPECT_LE(dark_by_spread.within, 0.85 * dark.all);
 }
 
 }  // namespace neumann::agreement::metropolis_test

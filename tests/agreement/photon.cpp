@@ -25,8 +25,11 @@ TEST(PhotonPicturesSlow, AreWithinTheirStatedErrors) {
                 physics::settings_of(exact.scene, make_method({"photon", {{"gather", gather}, {"photons", "16384"}}}), bounces,
                                      physics::fixed_seed + 1, 0.5),
                 block, 128);
-            const Count count = compare(photons, exact, 0.02, fmt::format("photon, gather {},", gather),
-                                        [&](auto b, auto q, auto channel) { return photons.at(b, q, channel, 128).bias; });
+            const Count count = compare(
+                photons, exact,
+                {.what = fmt::format("photon, gather {},", gather), .known = 0.02, .bias = [&](auto b, auto q, auto channel) {
+                     return photons.at(b, q, channel, 128).bias;
+                 }});
             EXPECT_GE(count.within, 0.9 * count.all) << name << ", gather " << gather;
             all += count;
         }

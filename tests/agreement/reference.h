@@ -3,6 +3,7 @@
 
 #include "tests/physics/picture_blocks.h"
 
+#include <functional>
 #include <string>
 
 namespace neumann::agreement {
@@ -26,15 +27,20 @@ struct Count {
     void operator+=(const Count& other) { within += other.within, all += other.all; }
 };
 
-// The bias that a method states of the mean of a block, for a term and a channel.
-using StatedBias = std::function<double(std::size_t block, std::size_t term, std::size_t channel)>;
+struct Comparison {
+    std::string what;  // the method
+    double known;      // values are left out that the reference does not know to this part
+    // The bias that the method states of the mean of a block, for a term and a channel.
+    std::function<double(std::size_t block, std::size_t term, std::size_t channel)> bias = {};
+    bool by_chains = false;  // whose stays are events (few_events.h): then errors are at least what few of them leave open
+    // Of another seed, with four times as many replicates: for rare paths that make the spread of few replicates too small. Values
+    // that are too far off are looked at in it once more.
+    std::function<physics::Blocks()> once_more = {};
+};
 
-// All terms of all blocks, in each channel, and the rest if the reference knows it; values are left out that the reference does not
-// know to a part of `known`. Where both are exact they are the same;
+// All terms of all blocks, in each channel, and the rest if the reference knows it. Where both are exact they are the same;
 // elsewhere |found − reference| ≤ 4.5 SE + 2 bias is expected, and counted how many are within t SE + bias, 95% of them in the long
-// run. `what` names the method.
-Count compare(
-    const physics::Blocks& found, const Reference& reference, double known, const std::string& what,
-    const StatedBias& bias = [](std::size_t, std::size_t, std::size_t) { return 0.0; });
+// run.
+Count compare(const physics::Blocks& found, const Reference& reference, const Comparison& comparison);
 
 }  // namespace neumann::agreement
