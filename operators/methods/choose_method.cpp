@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 namespace neumann {
@@ -35,6 +36,10 @@ constexpr double clearly_better = 0.8;
 constexpr double fewest_to_distribute = 32.0;
 // The largest Σ_i E|error|² / |K^i Le|² of a pilot that is believed.
 constexpr double largest_known_error = 1.0;
+// Guided walks take at least about so much of the walk's work, and their tables are half of what pilots cost. So they have a pilot
+// where no other method takes less, and where these rays and those of the others' pilots are a small part of the render. (Of the
+// scenes in scenes/, 0.49 where they gain most; apps/manual/methods.md.)
+constexpr double work_of_guided = 0.4, rays_of_tables = 4.5e6;
 // Rays before the first sample are traced in order, without shading.
 constexpr double price_of_setup = 0.3;
 
@@ -189,38 +194,61 @@ void allow_bias(MethodChoice& choice, double work, const std::vector<Trial>& kno
     }
 }
 
+// What trials promise: Σ_i E|error|² / |K^i Le|², and the work for an error of 1, of each; and the method that is taken.
+struct Promise {
+    std::vector<double> errors, works;
+    std::size_t best = 0;
+};
+Promise promise_of(const std::vector<Trial>& trials, double affordable) {
+    Promise p;
+    for (const Trial& trial : trials) {
+        const double left = 1.0 - price_of_setup * trial.result.setup_rays / affordable;
+        p.errors.push_back(relative_error(trial.result, trials, error_of));
+        p.works.push_back(left > 0.0 ? p.errors.back() * trial.result.rays * trial.candidate.price / left
+                                     : std::numeric_limits<double>::infinity());
+    }
+    for (std::size_t m = 1; m < trials.size(); ++m)
+        if (p.works[m] < clearly_better * p.works[p.best]) p.best = m;
+    return p;
+}
+
+double rays_of(const std::vector<Trial>& trials) {
+    double rays = 0.0;
+    for (const Trial& trial : trials) rays += trial.result.rays;
+    return rays;
+}
+
+bool is_guided(const Candidate& candidate) { return std::holds_alternative<method::Guided>(candidate.method); }
+
 MethodChoice choose(const method::Auto& open, const Scene& scene, const Goal& goal, const Watch& watch) {
     const int bounces = std::min(goal.bounces.value_or(scene.bounces.value_or(trial_bounces)), trial_bounces);
     if (bounces == 0) return {method::Walk{open}, "the emitted light alone takes no walk"};
-    const std::vector<Candidate> able = candidates(open, scene);
+    std::vector<Candidate> able = candidates(open, scene);
     if (able.size() == 1)
         return {able.front().method, "what mirrors and glass throw on from a light without extent is found from the light alone"};
+    std::vector<Candidate> guided;
+    std::ranges::copy_if(able, std::back_inserter(guided), is_guided);
+    std::erase_if(able, is_guided);
     const double affordable = expected_rays(with_default_limits(goal), scene.film, bounces);
     if (affordable < rays_of_a_long_render) return {method::Walk{open}, "a pilot would take too large a part of so small a render"};
 
     const Scene small = scene.with(small_film(scene.film, trial_width));
     Goal of_trial = goal_of_trial(goal, bounces);
     std::vector<Trial> trials;
-    std::vector<double> errors, works;
-    std::size_t best = 0;
+    Promise promise;
     for (;; of_trial.samples = *of_trial.samples * longer) {
         trials = pilots_of(able, small, of_trial, watch, false);
         if (watch.stop()) return {method::Walk{open}, "the pilot was interrupted"};
-        errors.clear();
-        works.clear();
-        double rays = 0.0;
-        for (const Trial& trial : trials) {
-            const double left = 1.0 - price_of_setup * trial.result.setup_rays / affordable;
-            errors.push_back(relative_error(trial.result, trials, error_of));
-            works.push_back(left > 0.0 ? errors.back() * trial.result.rays * trial.candidate.price / left
-                                       : std::numeric_limits<double>::infinity());
-            rays += trial.result.rays;
+        promise = promise_of(trials, affordable);
+        const double most = part_of_render * affordable;
+        if (rays_of(trials) + rays_of_tables <= most && promise.works[promise.best] > work_of_guided * promise.works.front()) {
+            std::ranges::move(pilots_of(guided, small, of_trial, watch, true), std::back_inserter(trials));
+            if (watch.stop()) return {method::Walk{open}, "the pilot was interrupted"};
+            promise = promise_of(trials, affordable);
         }
-        best = 0;
-        for (std::size_t m = 1; m < trials.size(); ++m)
-            if (works[m] < clearly_better * works[best]) best = m;
-        if (errors[best] <= largest_known_error || static_cast<double>(longer) * rays > part_of_render * affordable) break;
+        if (promise.errors[promise.best] <= largest_known_error || static_cast<double>(longer) * rays_of(trials) > most) break;
     }
+    const auto& [errors, works, best] = promise;
 
     MethodChoice choice{trials[best].candidate.method, "in a pilot it had no error"};
     std::vector<std::string> others;
