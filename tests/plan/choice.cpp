@@ -159,10 +159,10 @@ TEST(ChoiceSlow, IsThatOfAStudyOnEightScenes) {
     for (const char* name : {"glass-ball", "glossy-floor"}) EXPECT_EQ(chosen(of_file(name)), "bidirectional") << name;
 }
 
-// Where 64 samples a pixel do not tell, a render of enough rays affords a pilot that does. In facing-mirrors
-// `bidirectional`, which the lights would choose, takes some four times the work of `corrected` for the same error of the worst
-// bounce (apps/manual/methods.md).
-TEST(ChoiceSlow, LooksLongerForALongRender) {
+// Where 64 samples a pixel do not tell, a render of enough rays affords a pilot that does, and a shorter one takes what two pilots
+// find. In facing-mirrors `bidirectional`, which the lights would choose, takes some four times the work of `corrected` for the
+// same error of the worst bounce (apps/manual/methods.md).
+TEST(ChoiceSlow, LooksLongerForALongRenderAndTwiceForAShortOne) {
     const Scene scene = of_file("facing-mirrors");
     const auto pilot = [&](std::uint64_t samples) {
         Goal goal;
@@ -171,7 +171,7 @@ TEST(ChoiceSlow, LooksLongerForALongRender) {
         return choose_method(method::Auto{}, scene, goal, {});
     };
     const MethodChoice of_short = pilot(1u << 12), of_long = pilot(1u << 16);
-    EXPECT_STREQ(name_of(of_short.method), "bidirectional") << of_short.why;
+    EXPECT_STRNE(name_of(of_short.method), "bidirectional") << of_short.why;
     EXPECT_STRNE(name_of(of_long.method), "bidirectional") << of_long.why;
     const auto least = [](const MethodChoice& choice) {
         return std::ranges::min_element(choice.trials, {}, &MethodTrial::error)->error;
