@@ -20,7 +20,8 @@ using physics::Blocks;
 // to 8.9 SE off and one of metal-room 4.5, and looked at again 4.35 and 4.34.
 TEST(MetropolisPicturesSlow, AgreeWithOtherMethodsBounceByBounce) {
     Count all;
-    for (const char* name : {"cornell-box", "glass-ball", "door-ajar", "glossy-floor", "metal-room", "facing-mirrors", "outdoor"}) {
+    for (const char* name : {"cornell-box", "glass-ball", "door-ajar", "glossy-floor", "metal-room", "facing-mirrors", "outdoor",
+                             "furnace", "mitsuba-cornell", "floating-panels", "sphere-segment"}) {
         const Reference& exact = reference(name);
         const auto chains = [&](std::uint64_t seed, std::uint64_t replicates) {
             return Blocks(exact.scene,

@@ -25,10 +25,12 @@ struct Maker {
     std::uint64_t of_both_ends = 0;  // replicates for the pixels, where they are others
 };
 const std::map<std::string, Maker> makers = {
-    {"cornell-box", {"walk", 256, true}},          {"door-ajar", {"bidirectional", 256, true}},
-    {"facing-mirrors", {"walk", 128, true, 256}},  {"floating-panels", {"walk", 128, true}},
-    {"glass-ball", {"bidirectional", 512, false}}, {"glossy-floor", {"walk", 128, true}},
-    {"metal-room", {"bidirectional", 256, true}},  {"outdoor", {"bidirectional", 256, true}},
+    {"cornell-box", {"walk", 256, true}},      {"door-ajar", {"bidirectional", 256, true}},
+    {"furnace", {"walk", 64, true}},           {"mitsuba-cornell", {"walk", 256, true}},
+    {"sphere-segment", {"walk", 256, true}},   {"facing-mirrors", {"walk", 128, true, 256}},
+    {"floating-panels", {"walk", 128, true}},  {"glass-ball", {"bidirectional", 512, false}},
+    {"glossy-floor", {"walk", 128, true}},     {"metal-room", {"bidirectional", 256, true}},
+    {"outdoor", {"bidirectional", 256, true}},
 };
 
 Reference make(const std::string& name) {
