@@ -16,8 +16,8 @@ using physics::Blocks;
 
 // 95% of intervals hold the other method's mean. Values of a scene go together, for all blocks of a replicate share the brightness
 // of a bounce and channels their paths, so that 170 of them are about as many as 25: 80% leaves 3 standard deviations of their
-// number, and 91% of all leaves 2.5 of some 160. Passed over eight seeds: 94 to 96%; in one of them a block of glass-ball was up
-// to 8.9 SE off and one of metal-room 4.5, and looked at again 4.35 and 4.34.
+// number, and 91% of all leaves 2.5 of some 160. Passed over eight seeds, four of them with the last four scenes: 94 to 96%; in one
+// a block of glass-ball was up to 8.9 SE off and one of metal-room 4.5, and looked at again 4.35 and 4.34.
 TEST(MetropolisPicturesSlow, AgreeWithOtherMethodsBounceByBounce) {
     Count all;
     for (const char* name : {"cornell-box", "glass-ball", "door-ajar", "glossy-floor", "metal-room", "facing-mirrors", "outdoor",
