@@ -2,7 +2,6 @@
 
 #include "core/reader/read_scene.h"
 #include "operators/methods/method_options.h"
-#include "operators/statistics/few_events.h"
 #include "operators/statistics/student_t.h"
 #include "tests/physics/seed.h"
 
@@ -55,22 +54,6 @@ const Reference& reference(const std::string& scene) {
     return there != made.end() ? there->second : made.emplace(scene, make(scene)).first->second;
 }
 
-namespace {
-
-// Of the block's value, with what few stays of chains leave open beside those of the whole picture.
-double error_by_chains(const physics::Blocks& found, const physics::Blocks::Value& f, std::size_t term, std::size_t channel,
-                       double t) {
-    Events all;
-    for (std::size_t b = 0; b < found.blocks(); ++b) {
-        const auto v = found.at(b, term, channel, found.replicates());
-        all.add(v.mean, v.error * v.error);
-    }
-    const double variance = f.error * f.error, weight = Events{f.mean, variance}.and_one_of(all.weight()).weight();
-    return std::max(f.error, expectation_above(f.mean, variance, weight) / t);
-}
-
-}  // namespace
-
 Count compare(const physics::Blocks& found, const Reference& reference, const Comparison& comparison) {
     Count count;
     double largest = 0.0;
@@ -83,7 +66,6 @@ Count compare(const physics::Blocks& found, const Reference& reference, const Co
                 auto f = found.at(b, q, channel, n);
                 const auto r = reference.blocks.at(b, q, channel, m);
                 if (r.mean == 0.0 || r.error > comparison.known * r.mean) continue;
-                if (comparison.by_chains) f.error = error_by_chains(found, f, q, channel, t);
                 const double stated = comparison.bias ? comparison.bias(b, q, channel) : 0.0;
                 double error = std::hypot(f.error, r.error), off = std::abs(f.mean - r.mean);
                 if (error == 0.0) {
@@ -96,7 +78,6 @@ Count compare(const physics::Blocks& found, const Reference& reference, const Co
                     std::printf("%s in %s, bounce %zu, block %zu, channel %zu: %.2f SE off, looked at again\n",
                                 comparison.what.c_str(), reference.name.c_str(), q, b, channel, off / error);
                     f = more->at(b, q, channel, more->replicates());
-                    if (comparison.by_chains) f.error = error_by_chains(*more, f, q, channel, t);
                     error = std::hypot(f.error, r.error), off = std::abs(f.mean - r.mean);
                 }
                 largest = std::max(largest, off / error);

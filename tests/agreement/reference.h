@@ -32,7 +32,6 @@ struct Comparison {
     double known;      // values are left out that the reference does not know to this part
     // The bias that the method states of the mean of a block, for a term and a channel.
     std::function<double(std::size_t block, std::size_t term, std::size_t channel)> bias = {};
-    bool by_chains = false;  // whose stays are events (few_events.h): then errors are at least what few of them leave open
     // Of another seed, with four times as many replicates: for rare paths that make the spread of few replicates too small. Values
     // that are too far off are looked at in it once more.
     std::function<physics::Blocks()> once_more = {};
