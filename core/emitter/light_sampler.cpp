@@ -1,5 +1,6 @@
 #include "core/emitter/light_sampler.h"
 
+#include "core/geometry/rounding.h"
 #include "core/sampling/spherical_rectangle.h"
 #include "core/sampling/spherical_triangle.h"
 #include "core/sampling/warp.h"
@@ -172,13 +173,24 @@ bool LightSampler::is_near(const Part& part, const Vec3& x) const {
     return glm::dot(middle, middle) < times * times * radius2;
 }
 
+// By more than rounding: from its own plane a part is seen edge-on, and what its corners' last digits say is nothing or half of the
+// sky.
 bool LightSampler::is_seen_from_front(const Part& part, const Vec3& x) const {
+    // `corner` is seen from x.
+    const auto in_front = [&](const Vec3& corner, const Vec3& a, const Vec3& b) {
+        constexpr double places = 4.0;  // x and the corners come from coordinates that were turned and moved, perhaps several times
+        const Vec3 n = glm::cross(a, b);
+        const double size = largest_component(x + corner) + largest_component(a) + largest_component(b);
+        const double of_places = double_rounding(x, size) * glm::length(n);
+        const double of_normal = 0x1p-49 * glm::length(a) * glm::length(b) * glm::length(corner);
+        return glm::dot(corner, n) < -places * (of_places + of_normal);
+    };
     if (part.is_rectangle()) {
         const Rectangle& r = table_.rectangle(part);
-        return glm::dot(r.corner - x, glm::cross(r.a, r.b)) < 0.0;
+        return in_front(r.corner - x, r.a, r.b);
     }
     const auto [a, b, c] = corners(part, x);
-    return glm::dot(a, glm::cross(b - a, c - a)) < 0.0;
+    return in_front(a, b - a, c - a);
 }
 
 // The solid angle of a part of a mesh; 0 from behind.

@@ -54,7 +54,7 @@ ProjectedPolygon::ProjectedPolygon(std::span<const Vec3> corners, const Vec3& no
         else
             backwards.add({to, from, m, -z});
     }
-    area_ = std::clamp(area_, 0.0, pi);
+    area_ = outer_.count > 0 ? std::clamp(area_, 0.0, pi) : 0.0;
     // The outer edges, and the inner ones from the last to the first, start where the others end.
     const auto start_of_chain = [](const Edges& edges) {
         std::size_t start = 0;

@@ -14,7 +14,8 @@ namespace neumann {
 
 class ProjectedPolygon {
 public:
-    // A convex polygon of 3 or 4 corners in a plane that misses the origin, seen from the origin, where a surface has this normal.
+    // A convex polygon of 3 or 4 corners, seen from the origin, where a surface has this normal. Its plane misses the origin by
+    // more than rounding: seen from its own plane it is nothing or half of the sky, as its corners happen to be rounded.
     ProjectedPolygon(std::span<const Vec3> corners, const Vec3& normal);
 
     // At most π; 0 if the polygon is below the horizon. The absolute error is about 10⁻¹⁵.
@@ -37,7 +38,7 @@ private:
         Vec2 end_of_sector(const Vec2& a, double area) const;
     };
     struct Edges {
-        static constexpr std::size_t most = 5;  // a quadrilateral with a corner below the horizon
+        static constexpr std::size_t most = 8;  // each side of a quadrilateral leaves at most two corners above the horizon
         std::array<Edge, most> edge;
         std::size_t count = 0;
         void add(const Edge& e) { edge[count++] = e; }
