@@ -74,7 +74,7 @@ void Checkpoints::save(const std::function<void()>& write, const std::string& be
                            ? fmt::format("{}\nThe state before it is whole: {} goes on from {}", error.what(), resuming_, before)
                            : std::string(error.what()));
     }
-    has_saved_ = keeps_ = true;
+    has_saved_ = true;
     writing_seconds_ = clock.seconds();
     since_last_ = Stopwatch();
 }
@@ -82,8 +82,9 @@ void Checkpoints::save(const std::function<void()>& write, const std::string& be
 void Checkpoints::keep(const RecordedRender& render, const std::optional<MethodChoice>& choice, const RenderedSeries& series,
                        bool is_last) {
     const bool due = is_due(), is_new = series.samples != samples_on_disk_ || series.convergence.size() != rows_on_disk_;
-    const bool wants_end = is_last && (keeps_ || due || interrupted()) && is_new;
-    if ((!wants_end && (is_last || !due)) || !is_wanted(bytes_of(series))) return;
+    const bool stays = keeps_ || interrupted() || (has_seconds_ && (has_saved_ || due));
+    if (is_last && !stays) folder_.has_all_of_saved();
+    if (!(is_last ? stays && is_new : due) || !is_wanted(bytes_of(series))) return;
     save([&] { save_render(folder_, request_, render, choice, series); }, fmt::format("{} samples a pixel", samples_on_disk_));
     samples_on_disk_ = series.samples;
     rows_on_disk_ = series.convergence.size();

@@ -19,10 +19,10 @@ bool is_written_unasked(double bytes, std::optional<double> free);
 
 class Checkpoints {
 public:
-    // A state every so many seconds (default_checkpoint, if they are not given), and one in the end if the render took longer or
-    // was interrupted, or if it `keeps` its samples anyway: those of a part, and those that were added to. Fields that are finished
-    // have none in the end. If nothing asks for a state, a large one is not written, which `tell` tells once. `resuming`: the
-    // command that goes on, for messages.
+    // A state every so many seconds (default_checkpoint, if they are not given). In the end one stays where the render was
+    // interrupted, where `seconds` are given, or where it `keeps` its samples anyway: those of a part, and those that were added to;
+    // elsewhere it would be several times as large as the pictures. Fields that are finished have none in the end. If nothing asks for
+    // a state, a large one is not written, which `tell` tells once. `resuming`: the command that goes on, for messages.
     Checkpoints(OutputFolder& folder, RequestOnDisk request, std::string resuming, std::optional<double> seconds, bool keeps,
                 std::function<void(const std::string&)> tell)
         : folder_(folder),
@@ -31,6 +31,7 @@ public:
           seconds_(seconds.value_or(default_checkpoint)),
           is_asked_(seconds || keeps),
           keeps_(keeps),
+          has_seconds_(seconds.has_value()),
           tell_(std::move(tell)) {}
 
     // For a render that goes on from there, or begins. What it keeps is written here, and RunError, thrown if that fails, tells
@@ -49,7 +50,7 @@ private:
     RequestOnDisk request_;
     std::string resuming_;
     double seconds_;
-    bool is_asked_, keeps_, has_told_ = false, has_saved_ = false;
+    bool is_asked_, keeps_, has_seconds_, has_told_ = false, has_saved_ = false;
     std::function<void(const std::string&)> tell_;
     std::uint64_t samples_on_disk_ = 0;
     std::size_t fields_on_disk_ = 0;  // replicates

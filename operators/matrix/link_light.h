@@ -29,6 +29,11 @@ struct LinkArrival {
     double index;           // n at x
 };
 
+// About as many rays as T would have if all patches had unknowns: those that light goes on from have none, and may be most.
+inline double rays_of_links(const PatchSpace& space, std::uint32_t rays_of_facet) {
+    return static_cast<double>(std::max(space.facets().size(), space.patches().size())) * rays_of_facet;
+}
+
 class LinkLight {
 public:
     // `rays`: approximate number of rays. Keeps references to the scene and the space.

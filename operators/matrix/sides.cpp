@@ -66,6 +66,12 @@ Glossy glossy_of_pictures(const Scene& scene) {
     return some_go_on && some_end ? Glossy::by_rays : Glossy::in_cells;
 }
 
+bool has_glossy_lights(const Scene& scene) {
+    for (std::uint32_t shape = 0; shape < scene.geometry.shapes().size(); ++shape)
+        if (scene.emitters.is_emitter(shape) && is_glossy(scene.materials.at(shape, true))) return true;
+    return false;
+}
+
 std::vector<SideDirections> side_directions(const Scene& scene, Glossy glossy) {
     std::vector<SideDirections> sides;
     const bool lit_from_elsewhere = scene.emitters.has_environment() || scene.emitters.has_delta_lights();
@@ -74,7 +80,7 @@ std::vector<SideDirections> side_directions(const Scene& scene, Glossy glossy) {
         const Bsdf *front = scene.materials.at(shape, true), *back = scene.materials.at(shape, false);
         const auto directions = [&](const Bsdf* bsdf, bool shines) -> std::uint32_t {
             if (!bsdf) return shines ? 1 : 0;
-            if (glossy == Glossy::by_rays && !shines && is_glossy(bsdf)) return 0;
+            if (glossy == Glossy::by_rays && is_glossy(bsdf)) return 0;
             check(scene, shape, *bsdf);
             return directions_of(*bsdf);
         };

@@ -8,7 +8,7 @@
 
 namespace neumann {
 
-// How sides take part that are not diffuse and do not shine.
+// How sides take part that are not diffuse. Whether they shine makes no difference to what they reflect and let through.
 enum class Glossy {
     in_cells,  // their unknowns are cells of directions
     by_rays    // they have no unknowns: rays are reflected there and go on (chains.h)
@@ -25,6 +25,9 @@ double refractive_index(const Bsdf* side);
 
 // Whether the side reflects, but not diffusely.
 bool is_glossy(const Bsdf* side);
+
+// Whether sides shine that are not diffuse: by_rays, no unknown has their light, and points on them are sampled.
+bool has_glossy_lights(const Scene& scene);
 
 // by_rays, if there are such sides, and a ray that goes on can end: some side is diffuse.
 Glossy glossy_of_pictures(const Scene& scene);

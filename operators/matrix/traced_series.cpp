@@ -193,7 +193,7 @@ TracedSeries series_of(const Product& product, int links, const ExitantVector<C>
 bool samples_lights(const Scene& scene, const TracedSeriesSettings& settings) {
     constexpr double small_part = 0.1;
     return rays_that_meet_lights(scene, settings.rays) < enough_rays ||
-           (settings.glossy == Glossy::by_rays && rays_that_meet_lights(scene, 1) < small_part);
+           (settings.glossy == Glossy::by_rays && (rays_that_meet_lights(scene, 1) < small_part || has_glossy_lights(scene)));
 }
 
 // Adds up what each process has of the power.
@@ -223,10 +223,11 @@ TracedSeries trace_light(const Scene& scene, const RowShare& rows, const PatchSp
     std::vector<PowerOfTerm> power(static_cast<std::size_t>(settings.bounces) + 1);
     std::uint64_t light_rays = 0, link_rays = 0;
     Given<C> given;
-    // Of lights that are not surfaces, only what arrives is known.
-    const bool from_afar = scene.emitters.has_environment() || scene.emitters.has_delta_lights();
+    // Of lights that have no unknowns, only what arrives is known.
+    const bool from_elsewhere = scene.emitters.has_environment() || scene.emitters.has_delta_lights() ||
+                                (settings.glossy == Glossy::by_rays && has_glossy_lights(scene));
     const auto arrives = [&](std::size_t k, const IncidentVector<C>& means) {
-        if (from_afar) power[k - 1] += balance.arriving(means);
+        if (from_elsewhere) power[k - 1] += balance.arriving(means);
     };
     if (samples_lights(scene, settings)) {
         IncidentVector<C> arriving = arriving_light<C>(scene, R, settings.light_samples, settings.seed, rows.facets());
@@ -235,14 +236,14 @@ TracedSeries trace_light(const Scene& scene, const RowShare& rows, const PatchSp
         given.resize(2, ExitantVector<C>::zero(0));
         if (settings.glossy == Glossy::by_rays) {
             ArrivingByLinks<C> by_links =
-                arriving_by_links<C>(scene, rows, static_cast<double>(table_rays), settings.seed, settings.bounces, watch);
+                arriving_by_links<C>(scene, rows, rays_of_links(space, settings.rays), settings.seed, settings.bounces, watch);
             for (std::size_t k = 2; k < by_links.radiance.size(); ++k) {
                 arrives(k, by_links.radiance[k]);
                 given.push_back(R(std::move(by_links.radiance[k])));
             }
             if (settings.bounces == 0) arriving = std::move(arriving) + by_links.radiance[1];
             // All processes have found the same.
-            for (std::size_t k = 0; from_afar && rows.is_first() && k < power.size(); ++k) power[k] += by_links.power[k];
+            for (std::size_t k = 0; from_elsewhere && rows.is_first() && k < power.size(); ++k) power[k] += by_links.power[k];
             link_rays = by_links.rays;
         }
         arrives(1, arriving);
@@ -257,7 +258,7 @@ TracedSeries trace_light(const Scene& scene, const RowShare& rows, const PatchSp
     };
     TracedSeries series =
         series_of<C>(product, longest_chain, Le, given, rows, coarser, settings, watch, [&](int k, const ExitantVector<C>& term) {
-            if (k > 0 || !from_afar) balance.add(static_cast<std::size_t>(k), term, power);
+            if (k > 0 || !from_elsewhere) balance.add(static_cast<std::size_t>(k), term, power);
         });
     add_up(rows, power);
     series.power = std::move(power);

@@ -3,8 +3,11 @@
 #include "core/base/stopwatch.h"
 #include "operators/correction/diffuse_sides.h"
 #include "operators/methods/ahead.h"
+#include "operators/methods/bounces.h"
 #include "operators/methods/candidates.h"
 #include "operators/methods/method_pilot.h"
+#include "operators/methods/preparation.h"
+#include "operators/pictures/rendered_series.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -22,13 +25,15 @@ namespace {
 
 constexpr std::uint64_t trial_stream = 0x747269616cull;  // another seed than the pictures'
 constexpr std::uint64_t second_stream = 0x616761696eull;
-constexpr int trial_width = 48, trial_bounces = 6;  // at most
-constexpr std::uint64_t first_trial_samples = 64;
+constexpr int trial_width = 48, least_trial_width = 16, trial_bounces = 6;  // at most
+constexpr std::uint64_t first_trial_samples = 64, fewest_trial_samples = 16;
 constexpr std::uint32_t trial_replicates = 4;
 // Where no method knows its terms, the pilot has so many times as many samples, again and again, up to this part of the rays that
 // the goal affords.
 constexpr std::uint64_t longer = 4;
 constexpr double part_of_render = 0.05;
+// Pilots that are foretold to take up so much of that part of the seconds have room to take longer.
+constexpr double caution = 0.7;
 
 // Part of the work of the methods before it that a method may take to replace them: the pilot is no more exact than that.
 constexpr double clearly_better = 0.8;
@@ -43,10 +48,16 @@ constexpr double work_of_guided = 0.4, rays_of_tables = 4.5e6;
 // Rays before the first sample are traced in order, without shading.
 constexpr double price_of_setup = 0.3;
 
-Goal goal_of_trial(const Goal& goal, int bounces) {
+// Of a pilot.
+struct TrialSize {
+    int width = trial_width;
+    std::uint64_t samples = first_trial_samples;
+};
+
+Goal goal_of_trial(const Goal& goal, int bounces, const TrialSize& size) {
     Goal trial;
     trial.bounces = bounces;
-    trial.samples = first_trial_samples;
+    trial.samples = size.samples;
     trial.replicates = trial_replicates;
     trial.seed = goal.seed ^ trial_stream;
     trial.memory = goal.memory;
@@ -119,6 +130,55 @@ Promise promise_of(const std::vector<MethodPilot>& trials, double affordable) {
     return p;
 }
 
+// What a time limit leaves to pilots and to the pictures.
+class TimeLimit {
+public:
+    // `bounces`: of the pilots.
+    TimeLimit(const Scene& scene, double seconds, const Pilot& pilot, int bounces)
+        : scene_(scene), pilot_(pilot), seconds_(seconds), bounces_(bounces) {}
+
+    double of_pilots() const { return part_of_render * seconds_; }
+    // How many samples a pixel there is time for, up to bounce N by the walk, or of so many rays of this price.
+    double samples_of_walk(int N) const { return seconds_ / (pixels_of(scene_.film) * pilot_.seconds_per_walk(N)); }
+    double samples(double rays, double price) const {
+        return seconds_ / (pixels_of(scene_.film) * rays * price * pilot_.seconds_per_ray());
+    }
+
+    // Removes the methods whose preparation leaves no time to their pilots; says which, and why.
+    std::string leave_out(std::vector<Candidate>& able) const {
+        std::string said;
+        std::erase_if(able, [&](const Candidate& candidate) {
+            const Preparation preparation = preparation_of(candidate.method, scene_, pilot_);
+            if (preparation.seconds <= 0.5 * of_pilots()) return false;
+            said += fmt::format("; {} was left out: {}", name_of(candidate.method), describe(preparation));
+            return true;
+        });
+        return said;
+    }
+    TrialSize size_of_trials(const std::vector<Candidate>& able) const {
+        TrialSize size;
+        const auto takes_too_long = [&] {
+            const double walks = pixels_of(small_film(scene_.film, size.width)) * static_cast<double>(size.samples);
+            double seconds = 0.0;
+            for (const Candidate& candidate : able)
+                seconds += preparation_of(candidate.method, scene_, pilot_).seconds +
+                           walks * pilot_.seconds_per_walk(bounces_) * candidate.price;
+            return seconds > caution * of_pilots();
+        };
+        while (size.width > least_trial_width && takes_too_long()) size.width = std::max(size.width * 3 / 4, least_trial_width);
+        while (size.samples > fewest_trial_samples && takes_too_long()) size.samples /= 2;
+        return size;
+    }
+
+private:
+    static double pixels_of(const Film& film) { return static_cast<double>(film.crop_width) * film.crop_height; }
+
+    const Scene& scene_;
+    const Pilot& pilot_;
+    double seconds_;
+    int bounces_;
+};
+
 // The pilots of the methods that are able, and what they promise.
 struct Trials {
     Goal goal;  // of each pilot
@@ -128,7 +188,7 @@ struct Trials {
     bool is_known() const { return promise.errors[promise.best] <= largest_known_error; }
 };
 
-// Nothing if `watch` stops them.
+// Nothing if `watch` stops them before each has had one.
 std::optional<Trials> try_methods(std::vector<Candidate> able, const Scene& small, const Goal& goal, double affordable,
                                   const Watch& watch) {
     const auto is_guided = [](const Candidate& c) { return std::holds_alternative<method::Guided>(c.method); };
@@ -136,15 +196,16 @@ std::optional<Trials> try_methods(std::vector<Candidate> able, const Scene& smal
     std::ranges::copy_if(able, std::back_inserter(guided), is_guided);
     std::erase_if(able, is_guided);
     const double most = part_of_render * affordable;
-    Trials trials{goal, {}, {}};
-    auto& [goal_of_pilots, pilots, promise] = trials;
-    for (;; goal_of_pilots.samples = *goal_of_pilots.samples * longer) {
+    std::optional<Trials> before;
+    for (Trials trials{goal, {}, {}};; trials.goal.samples = *trials.goal.samples * longer) {
+        auto& [goal_of_pilots, pilots, promise] = trials;
         pilots = make_pilots(able, small, goal_of_pilots, watch, false);
-        if (watch.stop()) return std::nullopt;
+        if (watch.stop()) return before;
         promise = promise_of(pilots, affordable);
+        before = trials;
         if (rays_of(pilots) + rays_of_tables <= most && promise.works[promise.best] > work_of_guided * promise.works.front()) {
             std::ranges::move(make_pilots(guided, small, goal_of_pilots, watch, true), std::back_inserter(pilots));
-            if (watch.stop()) return std::nullopt;
+            if (watch.stop()) return before;
             promise = promise_of(pilots, affordable);
         }
         if (trials.is_known() || static_cast<double>(longer) * rays_of(pilots) > most) return trials;
@@ -165,18 +226,37 @@ bool is_better_twice(std::size_t one, std::size_t other, const Trials& trials, c
     return promise.works[0] < clearly_better * promise.works[1];
 }
 
-MethodChoice choose(const method::Auto& open, const Scene& scene, const Goal& goal, const Watch& watch) {
+MethodChoice choose(const method::Auto& open, const Scene& scene, const Goal& goal, const PilotOnDemand& pilot,
+                    const Watch& watch) {
     const int bounces = std::min(goal.bounces.value_or(scene.bounces.value_or(trial_bounces)), trial_bounces);
     if (bounces == 0) return {method::Walk{open}, "the emitted light alone takes no walk"};
-    const std::vector<Candidate> able = candidates(open, scene);
+    std::vector<Candidate> able = candidates(open, scene);
     if (able.size() == 1)
         return {able.front().method, "what mirrors and glass throw on from a light without extent is found from the light alone"};
-    const double affordable = expected_rays(with_default_limits(goal), scene.film, bounces);
+    const Goal limits = with_default_limits(goal);
+    const double affordable = expected_rays(limits, scene.film, bounces);
     if (affordable < rays_of_a_long_render) return {method::Walk{open}, "a pilot would take too large a part of so small a render"};
 
-    const MethodChoice interrupted{method::Walk{open}, "the pilot was interrupted"};
-    const Scene small = scene.with(small_film(scene.film, trial_width));
-    const std::optional<Trials> trials = try_methods(able, small, goal_of_trial(goal, bounces), affordable, watch);
+    const Stopwatch clock;
+    std::optional<TimeLimit> time;
+    std::string left_out;
+    TrialSize size;
+    if (limits.seconds) {
+        time.emplace(scene, *limits.seconds, pilot(), bounces);
+        const double samples = time->samples_of_walk(goal.bounces.value_or(scene.bounces.value_or(default_bounces(pilot()))));
+        if (samples < fewest_replicates)
+            return {method::Walk{open},
+                    fmt::format("in so short a time, {:.2g} samples a pixel of the walk, no other makes more", samples)};
+        left_out = time->leave_out(able);
+        if (able.size() == 1) return {method::Walk{open}, "it needs no preparation" + left_out};
+        size = time->size_of_trials(able);
+    }
+    Watch of_pilots{.stop = [&] { return watch.stop() || (time && clock.seconds() > time->of_pilots()); }};
+    const Scene small = scene.with(small_film(scene.film, size.width));
+    const std::optional<Trials> trials = try_methods(able, small, goal_of_trial(goal, bounces, size), affordable, of_pilots);
+    const MethodChoice interrupted{method::Walk{open},
+                                   watch.stop() ? "the pilot was interrupted"
+                                                : "a pilot of the others would take more than a twentieth of the time" + left_out};
     if (!trials) return interrupted;
     const std::vector<MethodPilot>& pilots = trials->pilots;
     const auto& [errors, works, best] = trials->promise;
@@ -195,7 +275,7 @@ MethodChoice choose(const method::Auto& open, const Scene& scene, const Goal& go
         pilots.begin());
     if (!trials->is_known() && of_lights != best && of_lights < pilots.size()) {
         // The walk, the first of them, meets the fewest of such paths.
-        if (best > 0 && is_better_twice(best, of_lights, *trials, small, affordable, watch)) {
+        if (best > 0 && is_better_twice(best, of_lights, *trials, small, affordable, of_pilots)) {
             why = fmt::format("rare paths decide, and in two pilots {} took clearly more work than it", name_of(by_lights.method));
         } else {
             taken = of_lights;
@@ -203,12 +283,18 @@ MethodChoice choose(const method::Auto& open, const Scene& scene, const Goal& go
         }
         if (watch.stop()) return interrupted;
     }
-    MethodChoice choice{pilots[taken].candidate.method, std::move(why)};
+    const MethodPilot& best_pilot = pilots[taken];
+    if (const double samples =
+            time ? time->samples(best_pilot.rays / best_pilot.samples, best_pilot.candidate.price) : fewest_replicates;
+        taken > 0 && samples < fewest_replicates)
+        return {method::Walk{open},
+                fmt::format("{} has time for {:.2g} samples a pixel alone", name_of(best_pilot.candidate.method), samples)};
+    MethodChoice choice{best_pilot.candidate.method, why + left_out};
     for (std::size_t m = 0; m < pilots.size(); ++m) choice.trials.push_back(described(pilots[m], errors[m]));
     // Fields have linear RGB alone and no parts, and choose their samples by themselves where an error is to be reached.
     const bool fields_can = !goal.colors && !goal.part && !(goal.samples && goal.relative_error);
     if (open.bias_allowed && fields_can)
-        allow_bias(choice, works[taken], pilots, small, goal, affordable, goal_of_trial(goal, bounces), watch);
+        allow_bias(choice, works[taken], pilots, small, goal, affordable, goal_of_trial(goal, bounces, size), of_pilots);
     const double samples = affordable / (rays_of_bounce * (bounces + 1.0) * scene.film.crop_width * scene.film.crop_height);
     if (samples >= fewest_to_distribute) set_adaptive(choice.method, LeastError::of_all);
     return choice;
@@ -216,9 +302,10 @@ MethodChoice choose(const method::Auto& open, const Scene& scene, const Goal& go
 
 }  // namespace
 
-MethodChoice choose_method(const method::Auto& open, const Scene& scene, const Goal& goal, const Watch& watch) {
+MethodChoice choose_method(const method::Auto& open, const Scene& scene, const Goal& goal, const PilotOnDemand& pilot,
+                           const Watch& watch) {
     const Stopwatch clock;
-    MethodChoice choice = choose(open, scene, goal, watch);
+    MethodChoice choice = choose(open, scene, goal, pilot, watch);
     if (open.adaptive) set_adaptive(choice.method, *open.adaptive);
     if (!choice.trials.empty()) choice.seconds = clock.seconds();
     return choice;

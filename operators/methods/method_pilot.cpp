@@ -25,10 +25,16 @@ MethodPilot pilot_of(const Candidate& candidate, const BounceSeries& series) {
     pilot.rays = static_cast<double>(series.convergence.back().rays);
     pilot.setup_rays = static_cast<double>(series.rays) - pilot.rays;
     for (int i = 1; i <= series.bounces(); ++i) {
-        PixelEstimate term = series.term(static_cast<std::size_t>(i));
-        const MeanWithError& mean = series.report.bounces[static_cast<std::size_t>(i)].mean;
-        pilot.terms.push_back({std::move(term.mean), square(term.standard_error), square(term.discretisation),
-                               mean.mean - 2.0 * mean.standard_error});
+        const auto bounce = static_cast<std::size_t>(i);
+        PixelEstimate term = series.term(bounce);
+        const MeanWithError& mean = series.report.bounces[bounce].mean;
+        double variance = square(term.standard_error);
+        // Where replicates agree by chance, their spread tells less than the errors that goals look at.
+        if (!has_fields(candidate.method)) {
+            const double relative = series.convergence.back().term_error[bounce];
+            variance = std::max(variance, relative * relative * square(term.mean));
+        }
+        pilot.terms.push_back({std::move(term.mean), variance, square(term.discretisation), mean.mean - 2.0 * mean.standard_error});
     }
     pilot.samples = static_cast<double>(series.samples * pilot.terms.front().picture.pixels.size());
     return pilot;

@@ -44,7 +44,7 @@ BounceSeries render_chosen(const Scene& scene, const Method& method, Goal goal, 
     }
     std::optional<MethodChoice> choice;
     if (const auto* open = std::get_if<method::Auto>(&method)) {
-        choice = choose_method(*open, scene, goal, watch);
+        choice = choose_method(*open, scene, goal, pilot, watch);
         goal.spent = choice->seconds;
         try {
             return render(scene, choice->method, goal, watch, pilot, saving, choice);

@@ -4,6 +4,7 @@
 #include "core/base/stopwatch.h"
 #include "core/scene/shading_normals.h"
 #include "operators/methods/crew.h"
+#include "operators/methods/preparation.h"
 #include "operators/methods/render_job.h"
 #include "operators/pictures/field_goal.h"
 
@@ -128,6 +129,8 @@ BounceSeries render_by(M m, const RenderJob& job) {
     const bool given = is_given(m, goal), importance = std::same_as<M, method::Patches> && kind(m) == FieldReading::importance;
     if (importance && goal.tail)
         throw InputError("--tail counts bounces by what is left of the light, not of importance: --importance takes -n");
+    const std::optional<double> seconds = with_default_limits(goal).seconds;
+    if (seconds && !given && !job.saving.from) prepared_in_time(*seconds, m, job.scene, job.pilot());
     FieldSettings settings = choose_settings(m, job);
     if (goal.relative_error && given)
         throw InputError(

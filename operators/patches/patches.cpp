@@ -36,18 +36,26 @@ double positive_area(const Geometry& geometry) {
     return area;
 }
 
-// Numbers of cells along the two directions of a chart, for cells of a given width.
-std::array<std::size_t, 2> cells_of(const Chart& chart, double width) {
-    const auto along = [&](double length) { return static_cast<std::size_t>(std::max(1.0, std::round(length / width))); };
+// How charts are cut into cells. `divides`: also those that are smaller than a cell, into four, so that coarser cells differ from
+// finer ones on every chart.
+struct Cutting {
+    double width;
+    bool divides;
+};
+
+// Numbers of cells along the two directions of a chart.
+std::array<std::size_t, 2> cells_of(const Chart& chart, const Cutting& cutting) {
+    const auto along = [&](double length) { return static_cast<std::size_t>(std::max(1.0, std::round(length / cutting.width))); };
     const Vec2 lengths = chart.lengths();
     // Around a pole at least three cells are needed.
-    return {along(lengths.x), chart.closed_in_t() ? std::max<std::size_t>(3, along(lengths.y)) : along(lengths.y)};
+    const std::array n{along(lengths.x), chart.closed_in_t() ? std::max<std::size_t>(3, along(lengths.y)) : along(lengths.y)};
+    return cutting.divides && n[0] * n[1] == 1 ? std::array<std::size_t, 2>{2, 2} : n;
 }
 
-std::size_t count_cells(const std::vector<Chart>& charts, double width) {
+std::size_t count_cells(const std::vector<Chart>& charts, const Cutting& cutting) {
     std::size_t sum = 0;
     for (const Chart& chart : charts) {
-        const auto n = cells_of(chart, width);
+        const auto n = cells_of(chart, cutting);
         sum += n[0] * n[1];
     }
     return sum;
@@ -60,13 +68,14 @@ constexpr double near = 0.25;
 constexpr double least_weight = 0.5;
 
 // The smallest width of cells for which there are at most `wanted` cells.
-double choose_width(const std::vector<Chart>& charts, double area, std::size_t wanted) {
+Cutting choose_cutting(const std::vector<Chart>& charts, double area, std::size_t wanted) {
+    const bool divides = 4 * charts.size() <= wanted;
     double high = 4.0 * std::sqrt(area), low = 0.25 * std::sqrt(area / static_cast<double>(wanted));
     for (int i = 0; i < 60; ++i) {
         const double middle = std::sqrt(low * high);
-        (count_cells(charts, middle) <= wanted ? high : low) = middle;
+        (count_cells(charts, {middle, divides}) <= wanted ? high : low) = middle;
     }
-    return high;
+    return {high, divides};
 }
 
 }  // namespace
@@ -75,11 +84,12 @@ Patches::Patches(const Geometry& geometry, const Patching& patching)
     : geometry_(&geometry),
       atlas_(geometry, positive_area(geometry) / static_cast<double>(std::max<std::size_t>(patching.patches, 1))) {
     if (patching.patches == 0) throw InputError("0 patches: at least one is needed");
-    const double area = total_area(geometry), width = choose_width(charts(), area, patching.patches);
-    const auto cells = static_cast<double>(count_cells(charts(), width));
+    const double area = total_area(geometry);
+    const Cutting cutting = choose_cutting(charts(), area, patching.patches);
+    const auto cells = static_cast<double>(count_cells(charts(), cutting));
     footprints_ = find_footprints(geometry, charts(), near * std::sqrt(area / cells));
     for (const Chart& chart : charts()) {
-        const auto [across, along] = cells_of(chart, width);
+        const auto [across, along] = cells_of(chart, cutting);
         add_grid(axis(across, patching.grading, false), axis(along, patching.grading, chart.closed_in_t()));
     }
 }

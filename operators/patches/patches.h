@@ -13,7 +13,7 @@
 namespace neumann {
 
 struct Patching {
-    std::size_t patches = 4000;  // approximate number; at least one per chart
+    std::size_t patches = 4000;  // approximate number; at least one per chart, and four where there are enough for that
     double grading = 0.7;        // in [0, 1): cells at an edge are narrower by the factor 1 − grading
     bool operator==(const Patching&) const = default;
 };
@@ -34,6 +34,8 @@ public:
     std::uint32_t chart_number(std::uint32_t patch) const { return patches_[patch].chart; }
     const Chart& chart(std::uint32_t patch) const { return charts()[chart_number(patch)]; }
     std::uint32_t chart_of(const SurfacePoint& p) const { return atlas_.chart_of(p); }
+    // The larger of the numbers of cells along the two directions of a chart.
+    std::uint32_t cells_along(std::uint32_t chart) const { return std::max(size_of(grids_[chart].s), size_of(grids_[chart].t)); }
 
     // The place of a point on its chart, which is the same for coarser patches.
     struct Place {

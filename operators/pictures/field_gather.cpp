@@ -92,7 +92,7 @@ void FieldGather::choose_directions(std::vector<PixelRay>& seen, std::uint32_t r
 // At the end of a ray: adds what it brings, or makes it start there.
 void FieldGather::read_or_go_on(PixelRay& l, const FieldPair& fields, bool compares, std::vector<float>& arriving) const {
     // The direct light at other first vertices is already sampled (bounce 1).
-    if (const Rgb emitted = (l.links > 0 || (l.takes_all && from_field_ > 3)) && !leaves_out_links(l, fields)
+    if (const Rgb emitted = (l.links > 0 || l.takes_all) && !leaves_out_links(l, fields)
                                 ? scene_.emitters.emitted(l.y, -l.wi)
                                 : Rgb(0.0);
         !is_black(emitted)) {
@@ -148,8 +148,8 @@ void FieldGather::arrive(const FieldStack& field, const PixelRay& l, const Patch
     const auto take_in_last = [&] {
         for (std::size_t c = 0; c < 3; ++c) arriving[rest - 3 + c] += arriving[rest + c];
     };
-    // Lights at the end of links are found without the field.
-    if (l.links > 0) std::fill_n(arriving.begin(), 3, 0.0f);
+    // Lights are found without the field, which has none from afar.
+    std::fill_n(arriving.begin(), 3, 0.0f);
     for (std::uint32_t link = 0; link < std::min<std::uint32_t>(l.links, static_cast<std::uint32_t>(stride_)); ++link) {
         take_in_last();
         std::copy_backward(arriving.begin(), arriving.end() - 3, arriving.end());

@@ -1,5 +1,6 @@
 #include "operators/pictures/field_goal.h"
 
+#include "core/base/error.h"
 #include "core/base/stopwatch.h"
 #include "operators/pictures/field_costs.h"
 #include "operators/pictures/field_errors.h"
@@ -198,16 +199,28 @@ std::optional<FieldRun> render_fields_once(const Scene& scene, const FieldSettin
     return make_run(scene.film, std::move(*pictures), settings, {}, clock.seconds());
 }
 
+FieldSettings first_of_search(FieldSettings settings, const FieldSettings& most) {
+    settings.patching.patches = std::min(fewest_patches, most.patching.patches);
+    settings.rays = std::min(fewest_rays, most.rays);
+    settings.light_samples = std::min(settings.rays, most.light_samples);
+    settings.samples = 1;
+    return settings;
+}
+
 std::optional<FieldRun> render_fields_to_goal(const Scene& scene, FieldSettings settings, const FieldGoal& goal, const Watch& watch,
                                               FieldTeam* team, FieldSaving* saving,
                                               const std::function<void(const FieldRun&)>& see) {
     const Stopwatch clock;
     const FieldSettings most = goal.most.value_or(largest(settings));
-    settings.patching.patches = std::min(fewest_patches, most.patching.patches);
-    settings.rays = std::min(fewest_rays, most.rays);
-    settings.light_samples = std::min(settings.rays, most.light_samples);
-    settings.samples = 1;
-    FieldRun run = *render_fields_once(scene, settings, {}, team);
+    const double end = goal.seconds ? 1.1 * *goal.seconds + 1.0 : std::numeric_limits<double>::infinity();
+    settings = first_of_search(settings, most);
+    auto first = render_fields_once(scene, settings, {.stop = [&] { return watch.stop() || clock.seconds() > end; }}, team);
+    if (!first && watch.stop()) return std::nullopt;
+    if (!first)
+        throw RunError(
+            fmt::format("the first pictures, from {} patches or one a face, were not finished in {}: no picture was written",
+                        settings.patching.patches, seconds_text(end)));
+    FieldRun& run = *first;
     Steps steps(scene, goal, most);
     steps.add(run, run.seconds);
 
@@ -224,13 +237,12 @@ std::optional<FieldRun> render_fields_to_goal(const Scene& scene, FieldSettings 
         if (watch.show) watch.show(run.pictures.bounces(), [&](std::size_t i) { return run.pictures.term_mean(i); });
         if (see) see(run);
     };
-    const double end = goal.seconds ? 1.1 * *goal.seconds + 1.0 : std::numeric_limits<double>::infinity();
     for (;;) {
         tell();
         show();
         if (goal.relative_error && steps.worst().error <= *goal.relative_error) {
             run.outcome = Outcome::error_reached;
-            return run;
+            return first;
         }
         const double begin = clock.seconds();
         const FieldSettings* const under_way = saving && saving->from ? &saving->from->settings : nullptr;
@@ -238,7 +250,7 @@ std::optional<FieldRun> render_fields_to_goal(const Scene& scene, FieldSettings 
         if (!next) {
             run.outcome = steps.outcome();
             run.why = steps.why_not();
-            return run;
+            return first;
         }
         const bool goes_on = under_way && same_pictures(*under_way, *next);
         Watch in_time = watch;
@@ -254,7 +266,7 @@ std::optional<FieldRun> render_fields_to_goal(const Scene& scene, FieldSettings 
             run.why = fmt::format(
                 "the largest error is {:.2g}, in bounce {}; the next refinement took longer than foretold and was given up",
                 steps.worst().error, steps.worst().bounce);
-            return run;
+            return first;
         }
         if (goes_on) saving->from.reset();
         if (saving && !saving->from) saving->has_all();

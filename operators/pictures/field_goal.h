@@ -17,7 +17,7 @@ namespace neumann {
 struct FieldGoal {
     std::optional<double>
         relative_error;             // of whole pictures, sampling and discretisation together, for every term that is not all zero
-    std::optional<double> seconds;  // total; the first render, with the fewest patches, is finished in any case
+    std::optional<double> seconds;  // total
     std::optional<FieldSettings> most;  // the final settings, if they are given
 };
 
@@ -32,11 +32,15 @@ struct FieldRun {
     std::string why = {};  // why the search ended without reaching the error, in words
 };
 
+// The settings of its first render, with the fewest patches, rays and samples.
+FieldSettings first_of_search(FieldSettings settings, const FieldSettings& most);
+
 // No render starts that is predicted to exceed the time; one that exceeds it by a tenth and a second is dropped. Without an error
 // to reach, the search goes on while each step lowers the error by a twentieth. If interrupted or out of time, it returns the
-// result of the previous render; the first render is not stopped. Does not call watch.judge. `team`: who renders with this process;
-// null: nobody. `saving`: of each render but the first; a search that begins with a render under way goes on with that one as soon
-// as it has seen the errors of smaller ones, and returns nothing if it is interrupted before that. `see`: called with each result.
+// result of the previous render. Before the first is finished, it returns nothing if interrupted, and throws RunError if out of
+// time. Does not call watch.judge. `team`: who renders with this process; null: nobody. `saving`: of each render but the first; a
+// search that begins with a render under way goes on with that one as soon as it has seen the errors of smaller ones, and returns
+// nothing if it is interrupted before that. `see`: called with each result.
 std::optional<FieldRun> render_fields_to_goal(const Scene& scene, FieldSettings settings, const FieldGoal& goal, const Watch& watch,
                                               FieldTeam* team = nullptr, FieldSaving* saving = nullptr,
                                               const std::function<void(const FieldRun&)>& see = {});

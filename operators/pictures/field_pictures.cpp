@@ -1,6 +1,8 @@
 #include "operators/pictures/field_pictures.h"
 
 #include "operators/pictures/path_group.h"
+#include "operators/statistics/one_sample_more.h"
+#include "operators/statistics/student_t.h"
 
 #include <oneapi/tbb/parallel_for.h>
 #include <algorithm>
@@ -30,11 +32,15 @@ Estimate FieldPictures::picture(std::size_t first, std::size_t last) const {
         for (std::size_t q = first; q <= last; ++q) sum += Rgb(v[3 * q], v[3 * q + 1], v[3 * q + 2]);
         return sum;
     };
+    std::vector<SampleRange> ranges(pixels);  // of the replicates
     oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::size_t>(0, pixels, 1024), [&](const auto& range) {
         std::vector<Rgb> found(replicates_);
         for (std::size_t pixel = range.begin(); pixel < range.end(); ++pixel) {
             Rgb sum(0.0), squares(0.0);
-            for (std::uint32_t r = 0; r < replicates_; ++r) sum += found[r] = value(pixel, r);
+            for (std::uint32_t r = 0; r < replicates_; ++r) {
+                sum += found[r] = value(pixel, r);
+                ranges[pixel].add(found[r]);
+            }
             const Rgb mean = sum / n;
             for (const Rgb& x : found) squares += (x - mean) * (x - mean);
             Rgb least(0.0);
@@ -48,7 +54,27 @@ Estimate FieldPictures::picture(std::size_t first, std::size_t last) const {
             result.discretisation.pixels[pixel] = glm::abs(value(pixel, replicates_));
         }
     });
+    if (replicates_ > 1) raise_errors(ranges, result);
     return result;
+}
+
+// At the edges of what is seen replicates agree by chance: as many of their samples meet it. What one sample more or less brings is
+// told by the pixels beside.
+void FieldPictures::raise_errors(const std::vector<SampleRange>& ranges, Estimate& picture) const {
+    const double t = student_t_quantile(0.95, replicates_ - 1.0);
+    oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::size_t>(0, ranges.size(), 1024), [&](const auto& range) {
+        for (std::size_t pixel = range.begin(); pixel < range.end(); ++pixel) {
+            SampleRange around;
+            for_neighbourhood(width_, height_, pixel, [&](std::size_t other) { around.merge(ranges[other]); });
+            for (int c = 0; c < 3; ++c) {
+                const double d = difference(around, c);
+                if (d == 0.0) continue;
+                double& error = picture.standard_error.pixels[pixel][c];
+                const bool agree = difference(ranges[pixel], c) == 0.0;
+                error = std::max(error, least_half_width(d, static_cast<double>(samples), agree) / t);
+            }
+        }
+    });
 }
 
 void FieldPictures::set_replicate(std::uint32_t replicate, std::span<const Rgb> picture) {
@@ -105,10 +131,24 @@ void FieldPictures::group_is_complete(std::size_t group) {
 }
 
 void FieldPictures::add_groups() {
+    find_differences();
     // In a fixed order, so that the result does not depend on threads.
     sums_.assign(sums_of_quantity * quantities_ * replicates_, 0.0);
     for (std::size_t k = 0; k < sums_of_groups_.size(); ++k) sums_[k % sums_.size()] += sums_of_groups_[k];
     sums_of_groups_ = {};
+}
+
+void FieldPictures::find_differences() {
+    std::vector<SampleRange> ranges(quantities_);
+    const std::size_t pixels = static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
+    for (std::size_t pixel = 0; pixel < pixels; ++pixel)
+        for (std::uint32_t r = 0; r < replicates_; ++r)
+            for (std::size_t q = 0; q < quantities_; ++q) {
+                const float* const v = values(pixel) + 3 * (quantities_ * r + q);
+                ranges[q].add(Rgb(v[0], v[1], v[2]));
+            }
+    for (std::size_t q = 0; q < quantities_; ++q)
+        for (int c = 0; c < 3; ++c) differences_.push_back(difference(ranges[q], c));
 }
 
 void FieldPictures::find_means(std::size_t begin, std::size_t end) {
@@ -151,8 +191,17 @@ MeanWithError FieldPictures::mean(std::size_t first, std::size_t last, std::size
                 if (which == c || which == 3)
                     least += std::abs(replicate_mean(r, q, c)) * resolution_.of_mean(q)[static_cast<int>(c)] /
                              (n * (which == 3 ? 3.0 : 1.0));
-    return {sum / n, n > 1.0 ? std::max(std::sqrt(squares / (n * (n - 1.0))), least) : std::numeric_limits<double>::infinity(),
-            n - 1.0};
+    if (n == 1.0) return {sum / n, std::numeric_limits<double>::infinity(), 0.0};
+    const double spread = std::sqrt(squares / (n * (n - 1.0)));
+    // One sample more or less of the whole picture.
+    double d = 0.0;
+    for (std::size_t q = first; q <= last; ++q)
+        for (std::size_t c = 0; c < 3; ++c)
+            if (which == c || which == 3) d += differences_[3 * q + c] / (which == 3 ? 3.0 : 1.0);
+    const bool agree = spread <= rounding_of_ranges * std::abs(sum / n);
+    const double all_samples = static_cast<double>(samples) * width_ * height_;
+    least = std::max(least, least_half_width(d, all_samples, agree) / student_t_quantile(0.95, n - 1.0));
+    return {sum / n, std::max(spread, least), n - 1.0};
 }
 
 PictureMeans FieldPictures::means(std::size_t first, std::size_t last) const {

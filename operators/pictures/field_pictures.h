@@ -11,6 +11,7 @@
 #include "operators/pictures/field_reader.h"
 #include "operators/pictures/ray_resolution.h"
 #include "operators/statistics/picture_statistics.h"
+#include "operators/statistics/sample_ranges.h"
 
 #include <cstdint>
 #include <functional>
@@ -94,6 +95,8 @@ public:
 
 private:
     void find_means(std::size_t begin, std::size_t end);
+    void find_differences();
+    void raise_errors(const std::vector<SampleRange>& ranges, Estimate& picture) const;
     Estimate picture(std::size_t first, std::size_t last) const;
     MeanWithError mean(std::size_t first, std::size_t last, std::size_t which = sums_of_quantity - 1) const;
     PictureMeans means(std::size_t first, std::size_t last) const;
@@ -105,6 +108,7 @@ private:
     LargeArray<float> means_;  // means over the replicates, a picture for each quantity
     // Sums over all pixels, replicate by replicate and quantity by quantity: of red, green, blue, and of their mean.
     std::vector<double> sums_, sums_of_groups_;
+    std::vector<double> differences_;  // the largest minus the smallest value in the picture, three of a quantity
     RayResolution resolution_;
 };
 

@@ -62,10 +62,11 @@ NEUMANN_HOT RaysByBounce FieldReader::read(const FieldPair& fields, std::span<co
     }
     for (const PixelRay& l : seen) l.sample->add(0, l.sample->weight * scene_.emitters.emitted(l.x, l.wo));
     std::erase_if(seen, [](const PixelRay& l) { return !l.bsdf; });
-    if (from_field_ > 3) rays[1] = lights_.find(seen);
     const auto to_gather = reading_ == FieldReading::gather
                                ? seen.begin()
                                : std::stable_partition(seen.begin(), seen.end(), [](const PixelRay& l) { return l.diffuse; });
+    // Where bounce 1 has no picture, the fields that are interpolated have it in the rest.
+    rays[1] = lights_.find(from_field_ > 3 ? std::span(seen) : std::span(to_gather, seen.end()));
     add_interpolated(fields, std::span(seen.begin(), to_gather));
     // Gather rays from diffuse points leave out what comes to these by links.
     for (const PixelRay& l : std::span(to_gather, seen.end()))

@@ -1,6 +1,7 @@
 #include "operators/pictures/field_rendering.h"
 
 #include "core/base/stopwatch.h"
+#include "operators/matrix/link_light.h"
 #include "operators/matrix/ray_table.h"
 #include "operators/matrix/scene_patches.h"
 #include "operators/matrix/traced_series.h"
@@ -177,8 +178,8 @@ private:
     // Light that comes by links, as points.
     void show_links() {
         if (!series_.front().fine_by_links || !shows_links(scene_)) return;
-        const double rays = std::max(static_cast<double>(RayTable::size(space_, settings_.rays)),
-                                     static_cast<double>(pixels_.pixels()) * settings_.samples);
+        const double rays =
+            std::max(rays_of_links(space_, settings_.rays), static_cast<double>(pixels_.pixels()) * settings_.samples);
         std::vector<LinkRaster> rasters;
         for (std::uint32_t r = 0; r < settings_.replicates; ++r) {
             LinkPictures links = picture_links(scene_, rows_, rays, seed(r), settings_.bounces, watch_);

@@ -4,6 +4,7 @@
 #include "operators/pictures/missing_paths.h"
 #include "operators/pictures/reachable_light.h"
 #include "operators/statistics/few_events.h"
+#include "operators/statistics/one_sample_more.h"
 #include "operators/statistics/student_t.h"
 
 #include <oneapi/tbb/blocked_range.h>
@@ -18,9 +19,6 @@ namespace neumann {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double rule_of_three = 2.995732273553991;  // −ln 0.05
-// Replicates agree to rounding; ranges are floats.
-constexpr double agreement = 1e-9, float_rounding = 1e-6;
 
 Rgb times(const Rgb& a, const Rgb& b) {
     Rgb product(0.0);
@@ -50,15 +48,6 @@ std::vector<Rgb> bounds(const Scene& scene, const SamplingSettings& settings) {
     return all;
 }
 
-// Calls f for the pixel and its eight neighbours.
-template <class F>
-void for_neighbourhood(int width, int height, std::size_t pixel, const F& f) {
-    const int x = static_cast<int>(pixel) % width, y = static_cast<int>(pixel) / width;
-    for (int v = std::max(y - 1, 0); v <= std::min(y + 1, height - 1); ++v)
-        for (int u = std::max(x - 1, 0); u <= std::min(x + 1, width - 1); ++u)
-            f(static_cast<std::size_t>(v) * static_cast<std::size_t>(width) + static_cast<std::size_t>(u));
-}
-
 bool has_chains(const SamplingSettings& settings) {
     return settings.generator == PathGenerator::metropolis ||
            (settings.mixture && settings.mixture->has(PathGenerator::metropolis));
@@ -71,7 +60,6 @@ public:
         : scene_(&scene),
           generator_(settings.generator),
           has_chains_(has_chains(settings)),
-          reads_fields_(settings.approximation || (settings.mixture && settings.mixture->has(PathGenerator::corrected))),
           result_(&result),
           ranges_(&ranges),
           quantities_(result.quantities()),
@@ -85,7 +73,7 @@ public:
 
     struct Quantity {
         std::vector<float> errors;  // h/t; empty where all are 0
-        double mean_at_most = 0.0;
+        double mean_at_most = 0.0, of_mean = 0.0;
     };
     // Must be called for q = 0, 1, … in order.
     Quantity look(std::size_t q, double samples, double t) {
@@ -110,7 +98,7 @@ public:
                     if (d == 0.0) continue;
                     const bool agree = error <= agreement * std::abs(mean);
                     double h = expectation_above(mean, error * error, weight[c]);
-                    if (agree || !samples_are_mixtures(q)) h = std::max(h, (agree ? rule_of_three : 1.0) * d / (samples * part));
+                    if (agree || !samples_are_mixtures(q)) h = std::max(h, least_half_width(d, samples * part, agree));
                     if (mean == 0.0) h = std::min(h, bounds_[q][c]);
                     errors[3 * pixel + static_cast<std::size_t>(c)] = static_cast<float>(h / t);
                 }
@@ -124,6 +112,7 @@ public:
                 at_most[c] = std::min(bounds_[q][c], rule_of_three * d[c] / (samples * static_cast<double>(pixels)));
             found.mean_at_most = mean_component(at_most);
         }
+        found.of_mean = error_of_mean(q, samples * static_cast<double>(pixels)) / t;
         if (std::any_of(errors.begin(), errors.end(), [](float e) { return e > 0.0f; })) found.errors = std::move(errors);
         return found;
     }
@@ -134,18 +123,21 @@ private:
         const double part = layout_.size(static_cast<std::uint32_t>(pixel)) / static_cast<double>(size_);
         return splats(generator_) ? std::min(part, 1.0) : part;
     }
-    bool samples_are_mixtures(std::size_t q) const { return (reads_fields_ || has_two_radii(generator_)) && q > 1; }
+    bool samples_are_mixtures(std::size_t q) const { return has_two_radii(generator_) && q > 1; }
     const SampleRange& range(std::size_t pixel, std::size_t q) const { return ranges_->of[pixel * stride_ + q]; }
 
     Rgb difference_nearby(std::size_t pixel, std::size_t q) const {
         SampleRange all;
         for_neighbourhood(result_->width(), result_->height(), pixel, [&](std::size_t other) { all.merge(range(other, q)); });
-        Rgb difference(0.0);
-        for (int c = 0; c < 3; ++c) {
-            const double smallest = all.smallest[c], largest = all.largest[c], d = largest - smallest;
-            if (d > float_rounding * std::max(std::abs(smallest), std::abs(largest))) difference[c] = d;
-        }
-        return difference;
+        return Rgb(difference(all, 0), difference(all, 1), difference(all, 2));
+    }
+    // The half width of the mean's interval at least.
+    double error_of_mean(std::size_t q, double samples) const {
+        SampleRange all;
+        for (std::size_t pixel = 0; pixel < result_->pixels(); ++pixel) all.merge(range(pixel, q));
+        const double d = (difference(all, 0) + difference(all, 1) + difference(all, 2)) / 3.0;
+        const MeanWithError mean = result_->mean_of_term(q);
+        return least_half_width(d, samples, mean.standard_error <= agreement * std::abs(mean.mean));
     }
     // All states of a bounce's chains bring the same, and a chain stays somewhere for a while: such a stay is an event, which
     // weighs about the same everywhere in a picture (within a factor of four over the blocks of door-ajar, whose means go from 1e-6
@@ -213,7 +205,7 @@ private:
 
     const Scene* scene_;
     PathGenerator generator_;
-    bool has_chains_, reads_fields_;
+    bool has_chains_;
     const SeriesMoments::Result* result_;
     const SampleRanges* ranges_;
     std::size_t quantities_, stride_;
@@ -232,7 +224,8 @@ LeastErrors::LeastErrors(const Scene& scene, const SamplingSettings& settings, c
       height_(result.height()),
       terms_(result.quantities()),
       sums_(result.quantities()),
-      means_at_most_(result.quantities(), 0.0) {
+      means_at_most_(result.quantities(), 0.0),
+      of_means_(result.quantities(), 0.0) {
     const double t = student_t_quantile(0.95, result.degrees_of_freedom());
     if (!std::isfinite(t) || series.moments.ranges().of.empty()) return;
     Look look(scene, settings, series.moments.ranges(), result);
@@ -242,6 +235,7 @@ LeastErrors::LeastErrors(const Scene& scene, const SamplingSettings& settings, c
         auto found = look.look(q, static_cast<double>(is_shared ? series.moments.replicates() : series.samples), t);
         terms_[q] = std::move(found.errors);
         means_at_most_[q] = found.mean_at_most;
+        if (!is_shared && !splats(settings.generator)) of_means_[q] = found.of_mean;
         if (q > 0) sums_[q] = sums_[q - 1];
         if (terms_[q].empty()) continue;
         sums_[q].resize(terms_[q].size());
@@ -258,17 +252,20 @@ Image LeastErrors::image(const std::vector<Errors>& all, std::size_t i) const {
     return out;
 }
 
-void report_unmet(SeriesReport& report, const LeastErrors& least) {
-    double of_sum = 0.0;
+void report_least(SeriesReport& report, const LeastErrors& least) {
+    double of_unmet = 0.0, of_met = 0.0;
     const auto set = [&](MeanWithError& mean, bool& unmet, std::size_t i) {
         const double at_most = least.mean_at_most(i);
-        if (at_most == 0.0) return 0.0;
-        unmet = true;
-        return mean.standard_error = at_most / student_t_quantile(0.95, mean.degrees_of_freedom);
+        unmet = at_most != 0.0;
+        if (unmet) return mean.standard_error = at_most / student_t_quantile(0.95, mean.degrees_of_freedom);
+        mean.standard_error = std::max(mean.standard_error, least.of_mean(i));
+        return 0.0;
     };
-    for (std::size_t i = 0; i < report.bounces.size(); ++i)
-        of_sum = std::hypot(of_sum, set(report.bounces[i].mean, report.bounces[i].unmet, i));
-    report.sum.standard_error = std::hypot(report.sum.standard_error, of_sum);
+    for (std::size_t i = 0; i < report.bounces.size(); ++i) {
+        of_unmet = std::hypot(of_unmet, set(report.bounces[i].mean, report.bounces[i].unmet, i));
+        of_met = std::hypot(of_met, least.of_mean(i));
+    }
+    report.sum.standard_error = std::hypot(std::max(report.sum.standard_error, of_met), of_unmet);
     if (report.rest_verdict == RestVerdict::measured) set(report.rest, report.rest_unmet, report.bounces.size());
 }
 

@@ -1,11 +1,8 @@
 // Lower bounds on standard errors. A pixel may miss a sliver of light that none of its samples met, and replicates may agree by
 // chance, so the standard error of a pixel is at least
 //
-//     h/t,  h = 3 D/n      if all replicates agree, in particular if all samples are 0: the rule of three, as p, the probability of
-//                          a sample that differs, is below 3/n with 95% confidence: (1 − p)^n ≤ e^{−pn} = 0.05
-//           h = D/n        otherwise: one sample more or less. Replicates of stratified samples often meet something equally often
-//                          although their expectation lies a little higher, and their spread does not show that. (Not in bounces
-//                          from 2 on by corrected fields: such a sample is a mean of several rays that read fields everywhere.)
+//     h/t,  h as one sample more or less leaves open (one_sample_more.h); where replicates do not agree, not in bounces from 2 on by
+//           photons and records, whose samples are means of many
 //           h as few events leave open (few_events.h), if that is more, in bounces by chains: a chain's stay is an event
 //
 // with n samples per pixel, t of the 95% interval, and D the largest minus the smallest sample of the pixel and its eight
@@ -34,6 +31,9 @@ public:
     // If no sample of the whole picture met quantity i: an upper bound, with 95% confidence, on its mean over pixels and channels;
     // infinite if there is no bound. Otherwise, or if nothing is there: 0.
     double mean_at_most(std::size_t i) const { return means_at_most_[i]; }
+    // The least standard error of the mean over pixels and channels: one sample more or less of the whole picture. 0 where pixels
+    // share their samples.
+    double of_mean(std::size_t i) const { return of_means_[i]; }
 
 private:
     using Errors = std::vector<float>;  // pixel by pixel, three channels each; empty: all 0
@@ -41,10 +41,10 @@ private:
 
     int width_, height_;
     std::vector<Errors> terms_, sums_;
-    std::vector<double> means_at_most_;
+    std::vector<double> means_at_most_, of_means_;
 };
 
-// Sets mean_at_most() as the interval of bounces, or of the rest, that no sample met.
-void report_unmet(SeriesReport& report, const LeastErrors& least);
+// Sets mean_at_most() as the interval of bounces, or of the rest, that no sample met, and of_mean() as the least error of others.
+void report_least(SeriesReport& report, const LeastErrors& least);
 
 }  // namespace neumann

@@ -2,6 +2,7 @@
 
 #include <oneapi/tbb/parallel_sort.h>
 #include <algorithm>
+#include <bit>
 #include <tuple>
 
 namespace neumann {
@@ -45,20 +46,25 @@ LinkRaster::LinkRaster(const Patches& patches, std::vector<End> ends, int bounce
     });
     const auto sides = static_cast<std::uint32_t>(2 * patches.charts().size());
     for (const auto& [cells, enough] : {std::pair(&fine_, enough_ends), std::pair(&coarse_, 4 * enough_ends)}) {
+        const std::uint32_t coarser = cells == &coarse_ ? 1 : 0;
         auto from = ends.begin();
         for (std::uint32_t side = 0; side < sides; ++side) {
             cells->first.push_back(cells->begin.size());
             const auto to = std::find_if(from, ends.end(), [&](const End& end) { return end.side != side; });
-            cells->divide({from, to}, enough, patches.charts()[side / 2], 0, 0);
+            const auto as_patches = static_cast<std::uint32_t>(std::bit_width(patches.cells_along(side / 2) - 1));
+            const std::uint32_t least = as_patches > coarser ? std::min(as_patches, levels) - coarser : 0;
+            cells->divide({from, to}, enough, least, patches.charts()[side / 2], 0, 0);
             from = to;
         }
         cells->first.push_back(cells->begin.size());
     }
 }
 
-void LinkRaster::Cells::divide(std::span<const End> ends, std::size_t enough, const Chart& chart, std::uint32_t from,
-                               std::uint32_t level) {
-    if (ends.size() < enough || level == levels) {
+// To the level `least`, where there are ends at all.
+void LinkRaster::Cells::divide(std::span<const End> ends, std::size_t enough, std::uint32_t least, const Chart& chart,
+                               std::uint32_t from, std::uint32_t level) {
+    const bool divides = level < least ? !ends.empty() : ends.size() >= enough && level < levels;
+    if (!divides) {
         add(ends, chart, from, level);
         return;
     }
@@ -66,7 +72,7 @@ void LinkRaster::Cells::divide(std::span<const End> ends, std::size_t enough, co
     auto begun = ends.begin();
     for (std::uint32_t q = 1; q <= 4; ++q) {
         const auto end = std::partition_point(begun, ends.end(), [&](const End& e) { return e.place < from + q * quarter; });
-        divide({begun, end}, enough, chart, from + (q - 1) * quarter, level + 1);
+        divide({begun, end}, enough, least, chart, from + (q - 1) * quarter, level + 1);
         begun = end;
     }
 }

@@ -1,5 +1,6 @@
 // Light that comes by links (operators/matrix/link_light.h) on diffuse sides, as what is seen in a mirror or through glass reads
-// it: incident radiance on cells of each chart that are halved as long as enough paths end there, so that caustics stay sharp.
+// it: incident radiance on cells of each chart. They are quartered as long as enough paths end there, so that caustics stay sharp,
+// and in any case until they are about as small as patches.
 #pragma once
 
 #include "core/base/vec.h"
@@ -15,7 +16,7 @@ namespace neumann {
 
 class LinkRaster {
 public:
-    // A cell is divided if at least this many paths end there.
+    // A cell that is no larger than a patch is divided if at least this many paths end there.
     static constexpr std::size_t enough_ends = 256;
 
     // The end of a path.
@@ -30,7 +31,8 @@ public:
     // Bounces 2 … N + 1, the last with all later ones.
     LinkRaster(const Patches& patches, std::vector<End> ends, int bounces);
 
-    // The incident radiance in bounce 2, 3, …, three floats each: mean over a cell, and over a cell of about four times the size.
+    // The incident radiance in bounce 2, 3, …, three floats each: mean over a cell, and over a cell of about four times the size. The
+    // two are the same only on a chart that is one patch.
     struct Reading {
         std::span<const float> fine, coarse;
     };
@@ -52,7 +54,8 @@ private:
         std::vector<std::uint32_t> begin = {};  // where each cell begins on the curve
         std::vector<float> values = {};
 
-        void divide(std::span<const End> ends, std::size_t enough, const Chart& chart, std::uint32_t from, std::uint32_t level);
+        void divide(std::span<const End> ends, std::size_t enough, std::uint32_t least, const Chart& chart, std::uint32_t from,
+                    std::uint32_t level);
         void add(std::span<const End> ends, const Chart& chart, std::uint32_t from, std::uint32_t level);
         std::span<const float> read(std::size_t side, std::uint32_t place) const;
     };

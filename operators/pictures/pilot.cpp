@@ -7,6 +7,7 @@
 #include <oneapi/tbb/parallel_for.h>
 #include <algorithm>
 #include <atomic>
+#include <numeric>
 
 namespace neumann {
 
@@ -105,10 +106,15 @@ Pilot::Pilot(const Scene& scene, const DirectLightSettings& direct, std::uint64_
         rest_.push_back(tail.mean(q, n));
         rays_.push_back(static_cast<double>(rays[q]) / n);
     }
-    seconds_per_walk_ = watch.seconds() / n;
+    seconds_per_ray_ = watch.seconds() / static_cast<double>(std::max<std::uint64_t>(all_rays, 1));
 }
 
 std::uint64_t pilots_run() { return pilots; }
+
+double Pilot::seconds_per_walk(int N) const {
+    const auto end = rays_.begin() + std::min<std::ptrdiff_t>(N + 1, std::ssize(rays_));
+    return seconds_per_ray_ * std::max(std::accumulate(rays_.begin(), end, 0.0), 1.0);
+}
 
 MeanWithError Pilot::term(int i) const { return term_[static_cast<std::size_t>(i)]; }
 

@@ -35,13 +35,15 @@ public:
     double rest_probability(int N) const;
     // Rays of a walk for each term 0 … `bounces`, and for the rest beyond.
     std::span<const double> rays() const { return rays_; }
-    double seconds_per_walk() const { return seconds_per_walk_; }
+    // On all threads, of a ray and what is done at its end, and of a walk up to bounce N.
+    double seconds_per_ray() const { return seconds_per_ray_; }
+    double seconds_per_walk(int N) const;
 
 private:
     std::vector<MeanWithError> term_, rest_;
     std::vector<double> rays_;
     std::uint64_t walks_ = 0, given_up_ = 0;
-    double seconds_per_walk_ = 0.0;  // all terms, on all threads
+    double seconds_per_ray_ = 0.0;
 };
 
 // Number of pilots that this program has run so far.

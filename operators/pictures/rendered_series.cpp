@@ -1,10 +1,13 @@
 #include "operators/pictures/rendered_series.h"
 
+#include "core/base/error.h"
 #include "core/base/stopwatch.h"
 #include "operators/pictures/bounded_samples.h"
+#include "operators/pictures/chance_agreement.h"
 #include "operators/pictures/shared_sampling.h"
 #include "operators/statistics/picture_statistics.h"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <bit>
 #include <numeric>
@@ -17,6 +20,8 @@ namespace {
 // Seconds. An interrupted render that has run for longer stops at once; otherwise it goes on to a number of samples that can be
 // repeated, and to the end of its first replicate.
 constexpr double patience = 3.0;
+// Beyond a time limit a render is cut off; but not the first sample a pixel of the walk, the plainest of methods.
+double cut_off(double seconds) { return 1.1 * seconds + 0.5; }
 
 // What is there before the first part.
 RenderedSeries beginning(const PictureSampler& sampler, std::optional<RenderedSeries>& from) {
@@ -41,7 +46,9 @@ Checkpoint make_checkpoint(const RenderedSeries& series, const Watch& watch) {
     checkpoint.rays = std::accumulate(series.tally.rays.begin(), series.tally.rays.end(), std::uint64_t{0});
     const auto result = series.moments.result();
     const std::size_t terms = result.quantities() - 1;
-    for (std::size_t i = 0; i < terms; ++i) checkpoint.term_error.push_back(relative_standard_error(result.term(i)));
+    for (std::size_t i = 0; i < terms; ++i)
+        checkpoint.term_error.push_back(relative_standard_error(
+            without_chance_agreement(result.term(i), series.moments.ranges(), i, static_cast<double>(series.samples))));
     checkpoint.sum_error = relative_standard_error(result.sum(terms - 1));
     const auto term = [&](std::size_t i) { return result.term(i).mean; };
     if (watch.judge) watch.judge(term, result.sum(terms - 1).mean, checkpoint);
@@ -112,29 +119,36 @@ RenderedSeries render_series(const Scene& scene, const PictureSampler::Settings&
         if (goal.seconds && done > 0) {
             const double each = seconds_so_far() / static_cast<double>(done), left = *goal.seconds - seconds_so_far();
             while (block > 1 && static_cast<double>(block) * each > left) block /= 2;
-            if (each > left && repeatable(done)) {
+            if (each > left && (repeatable(done) || left <= 0.0)) {
                 series.outcome = Outcome::time_reached;
                 break;
             }
         }
 
+        const bool has_end = goal.seconds && (done > 0 || settings.generator != PathGenerator::walk);
+        const auto is_late = [&] { return has_end && seconds_so_far() > cut_off(*goal.seconds); };
         Watch of_block;
         of_block.progress = [&](const RenderProgress& part) {
             report(static_cast<double>(done) + static_cast<double>(block) * part.fraction);
         };
         of_block.stop = [&] {
             const bool may_drop = seconds_so_far() > patience ? done > 0 || size > 1 : done > 0 && repeatable(done);
-            return may_drop && watch.stop();
+            return (may_drop && watch.stop()) || is_late();
         };
         auto node = shared ? shared->run(goal.first + done, block, series.tally, of_block, std::move(memory))
                            : sampler.run(goal.first + done, block, series.tally, of_block, std::move(memory));
+        if (!node && done == 0 && !watch.stop())
+            throw RunError(
+                fmt::format("{} samples for each of {}×{} pixels were not finished in {:.3g} s: no picture was written; take "
+                            "a longer --time, a smaller film or --method walk",
+                            size, sampler.width(), sampler.height(), seconds_so_far()));
         if (!node && done == 0) {
             PictureSampler::Settings single = settings;
             single.replicate_size = 1;
             return render_series(scene, single, goal, watch, {{}, continuation.keep, continuation.longest_part});
         }
         if (!node) {
-            series.outcome = Outcome::interrupted;
+            series.outcome = watch.stop() ? Outcome::interrupted : Outcome::time_reached;
             break;
         }
         memory = series.moments.add(std::move(*node));

@@ -20,7 +20,7 @@ Scene of_file(const std::string& name) { return read_scene(SCENES "/" + name + "
 MethodChoice choice(const Scene& scene, std::uint64_t seed = fixed_seed) {
     Goal goal;
     goal.seed = seed;
-    return choose_method({}, scene, goal, {});
+    return choose_method({}, scene, goal, PilotOnDemand(scene, {}, seed), {});
 }
 std::string chosen(const Scene& scene) { return name_of(choice(scene).method); }
 

@@ -1,0 +1,31 @@
+// What a method makes ready before its first sample, foretold from the faces of the scene: each side of a face is a patch at least.
+#pragma once
+
+#include "operators/methods/method.h"
+#include "operators/pictures/pilot.h"
+
+#include <optional>
+#include <string>
+
+namespace neumann {
+
+struct Preparation {
+    double faces = 0.0;  // of the scene
+    double rays = 0.0;
+    double seconds = 0.0;
+};
+// Of `guided`, `corrected`, and of the first and smallest fields of `matrix`, `gather` and `patches`; nothing for methods whose
+// preparation does not grow with the scene.
+Preparation preparation_of(const Method& method, const Scene& scene, const Pilot& pilot);
+
+// The method, or one with an option less fine whose preparation takes no longer than that. Throws InputError if there is none.
+// `seconds`: the time limit of the render.
+Method prepared_in_time(double seconds, const Method& method, const Scene& scene, const Pilot& pilot);
+
+// A preparation is given up after so many seconds: what was foretold may be wrong by a half.
+double cut_off_preparation(double seconds);
+
+// "its fields on 100000 faces would take about 36 s to make"
+std::string describe(const Preparation& preparation);
+
+}  // namespace neumann
