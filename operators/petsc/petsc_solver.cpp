@@ -79,10 +79,10 @@ SolverResult solve_petsc(const Problem& problem, Petsc& petsc, std::string& meth
         log.record(residual / first, error);
     };
     const double least = std::numeric_limits<double>::epsilon();
-    double goal = std::max(problem.tolerance * (problem.radius && *problem.radius < 1.0 ? 1.0 - *problem.radius : 1.0), least);
+    double goal = log.first_goal();
     try {
         for (;;) {
-            const int most = static_cast<int>(problem.most) - static_cast<int>(log.applications());
+            const int most = static_cast<int>(problem.most) - static_cast<int>(log.own_applications());
             const PetscLinear::End end = linear->solve(problem.Le, x, goal, most, look);
             log.apply(x, r);
             r += problem.Le - x;
