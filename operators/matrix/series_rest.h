@@ -81,7 +81,7 @@ double relative_error(const ExitantVector<C>& before, const ExitantVector<C>& T,
         double eta = 0.0, part = 0.0;
         for (Eigen::Index u = 0; u < guess.unknowns(); ++u) {
             const double residual = T(c, u) + twice(c, u) - guess(c, u), left = T(c, u) - residual;
-            if (residual == 0.0 || guess(c, u) <= too_small) continue;
+            if (std::abs(residual) <= too_small) continue;
             eta = std::max(eta, left > 0.0 ? std::abs(residual) / left : std::numeric_limits<double>::infinity());
         }
         if (eta == 0.0) continue;

@@ -55,6 +55,14 @@ TEST(SeriesRest, DimAndSlow) {
     }
 }
 
+// Mirrors lead into a room where light stays: it gets there when all seems to be over.
+TEST(SeriesRest, LightThatComesLate) {
+    Eigen::MatrixXd K = Eigen::MatrixXd::Zero(9, 9);
+    for (Eigen::Index u = 0; u < 7; ++u) K(u + 1, u) = 1.0;
+    K.bottomRightCorner(2, 2) << 0.5, 0.4, 0.4, 0.5;
+    expect_right(K, {1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0}, 100);
+}
+
 // Near-parallel plates: terms alternate and the ratio of neighbours never settles.
 TEST(SeriesRest, LightThatGoesToAndFro) {
     Eigen::MatrixXd K(2, 2);
