@@ -1,5 +1,5 @@
 // All terms of a series on a patch space, stored unknown by unknown, so that a pixel reads all bounces from one place. Floats, for
-// pictures only.
+// pictures only; they are added up in doubles, because a pixel may read them ten million times.
 #pragma once
 
 #include "operators/matrix/patch_field.h"
@@ -26,16 +26,17 @@ public:
     const float* operator[](std::uint32_t unknown) const { return values_.data() + unknown * stride_; }
 
     // Adds `scale` times an unknown's quantities to `to`, from the `first`-th float on.
-    void add(std::uint32_t unknown, std::size_t first, float scale, float* __restrict to) const {
+    void add(std::uint32_t unknown, std::size_t first, double scale, double* __restrict to) const {
         const float* __restrict from = (*this)[unknown];
-        for (std::size_t k = first; k < stride_; ++k) to[k] += scale * from[k];
+        for (std::size_t k = first; k < stride_; ++k) to[k] += scale * double{from[k]};
     }
-    void add(const PatchSpace::Reading& reading, std::size_t first, float scale, float* __restrict to) const {
+    void add(const PatchSpace::Reading& reading, std::size_t first, double scale, double* __restrict to) const {
         const float *__restrict a = (*this)[reading.unknown[0]], *__restrict b = (*this)[reading.unknown[1]],
                     *__restrict c = (*this)[reading.unknown[2]], *__restrict d = (*this)[reading.unknown[3]];
-        const auto wa = scale * static_cast<float>(reading.weight[0]), wb = scale * static_cast<float>(reading.weight[1]),
-                   wc = scale * static_cast<float>(reading.weight[2]), wd = scale * static_cast<float>(reading.weight[3]);
-        for (std::size_t k = first; k < stride_; ++k) to[k] += (wa * a[k] + wb * b[k]) + (wc * c[k] + wd * d[k]);
+        const double wa = scale * reading.weight[0], wb = scale * reading.weight[1], wc = scale * reading.weight[2],
+                     wd = scale * reading.weight[3];
+        for (std::size_t k = first; k < stride_; ++k)
+            to[k] += (wa * double{a[k]} + wb * double{b[k]}) + (wc * double{c[k]} + wd * double{d[k]});
     }
 
     template <int C>

@@ -79,10 +79,10 @@ SolverResult solve_petsc(const Problem& problem, Petsc& petsc, std::string& meth
         log.record(residual / first, error);
     };
     const double least = std::numeric_limits<double>::epsilon();
-    double goal = std::max(problem.tolerance * (problem.radius && *problem.radius < 1.0 ? 1.0 - *problem.radius : 1.0), least);
+    double goal = log.first_goal();
     try {
         for (;;) {
-            const int most = static_cast<int>(problem.most) - static_cast<int>(log.applications());
+            const int most = static_cast<int>(problem.most) - static_cast<int>(log.own_applications());
             const PetscLinear::End end = linear->solve(problem.Le, x, goal, most, look);
             log.apply(x, r);
             r += problem.Le - x;
@@ -169,6 +169,13 @@ Eigenpairs slepc_eigenpairs(const ChannelOperator& K, int count, const std::stri
             result.pairs.push_back(std::move(pair));
         }
         result.converged = found.converged;
+        // Its word is not taken for it, either.
+        constexpr double small = 1e-6;
+        for (const Eigenpair& pair : result.pairs) {
+            if (!result.converged || pair.residual <= small * std::abs(result.pairs.front().value)) continue;
+            result.converged = false;
+            result.why = fmt::format("not found by SLEPc's {}: what it found has a residual of {:.1e}", found.method, pair.residual);
+        }
         if (!found.converged)
             result.why = fmt::format("not found by SLEPc's {} within {} restarts, {:.0f} applications of K", found.method,
                                      found.restarts, result.applications);

@@ -17,8 +17,8 @@ constexpr std::uint32_t most_mirrors_with_unknowns = 16, most_links = 1000;
 constexpr double least_share = 0.01;
 
 // to[k] += weight · from[k − 3]: each quantity gets the previous one.
-void add_reflected(const Rgb& weight, const float* __restrict from, std::size_t first, std::size_t end, float* __restrict to) {
-    const float w[3] = {static_cast<float>(weight.r), static_cast<float>(weight.g), static_cast<float>(weight.b)};
+void add_reflected(const Rgb& weight, const double* __restrict from, std::size_t first, std::size_t end, double* __restrict to) {
+    const double w[3] = {weight.r, weight.g, weight.b};
     for (std::size_t k = first; k < end; k += 3)
         for (std::size_t c = 0; c < 3; ++c) to[k + c] += w[c] * from[k + c - 3];
 }
@@ -34,7 +34,7 @@ FieldGather::FieldGather(const Scene& scene, const PixelLights& lights, std::siz
 
 NEUMANN_HOT std::uint64_t FieldGather::add(const FieldPair& fields, std::span<const PixelRay> seen) const {
     std::uint64_t rays = 0;
-    std::vector<float> arriving(stride_);
+    std::vector<double> arriving(stride_);
     std::vector<PixelRay> asking;
     for (std::uint32_t r = 0; r < rays_; ++r) {
         asking.clear();
@@ -90,7 +90,7 @@ void FieldGather::choose_directions(std::vector<PixelRay>& seen, std::uint32_t r
 }
 
 // At the end of a ray: adds what it brings, or makes it start there.
-void FieldGather::read_or_go_on(PixelRay& l, const FieldPair& fields, bool compares, std::vector<float>& arriving) const {
+void FieldGather::read_or_go_on(PixelRay& l, const FieldPair& fields, bool compares, std::vector<double>& arriving) const {
     // The direct light at other first vertices is already sampled (bounce 1).
     if (const Rgb emitted = (l.links > 0 || l.takes_all) && !leaves_out_links(l, fields)
                                 ? scene_.emitters.emitted(l.y, -l.wi)
@@ -129,31 +129,30 @@ void FieldGather::read_or_go_on(PixelRay& l, const FieldPair& fields, bool compa
 // What `arriving` is set to: bounce i is K times its bounce i − 1, and the rest is K times the sum of its bounce N and rest.
 // `by_links` adds to the field, in the place of `replaced`.
 void FieldGather::arrive(const FieldStack& field, const PixelRay& l, const Patches::Place& place, const FieldStack* replaced,
-                         std::span<const float> by_links, std::vector<float>& arriving) const {
+                         std::span<const float> by_links, std::vector<double>& arriving) const {
     const std::size_t rest = stride_ - 3;
-    std::fill(arriving.begin(), arriving.end(), 0.0f);
+    std::fill(arriving.begin(), arriving.end(), 0.0);
     // Linear interpolation between the patches' centres does not preserve their means; it would lose up to some percent of a
     // bounce. A diffuse surface can gather the piecewise constant field, because patches do not show there.
     if (l.diffuse)
-        field.add(field.space().unknown(l.y, -l.wi), 0, 1.0f, arriving.data());
+        field.add(field.space().unknown(l.y, -l.wi), 0, 1.0, arriving.data());
     else
-        field.add(field.space().read(l.y, place, -l.wi), 0, 1.0f, arriving.data());
+        field.add(field.space().read(l.y, place, -l.wi), 0, 1.0, arriving.data());
     if (replaced) {
-        replaced->add(replaced->space().read(l.y, place, -l.wi), 6, -1.0f, arriving.data());
+        replaced->add(replaced->space().read(l.y, place, -l.wi), 6, -1.0, arriving.data());
         const SurfaceSide side = scene_.materials.side(l.y, -l.wi);
         const Rgb rho = reflectance(*side.bsdf, side.p);
-        for (std::size_t k = 0; k < by_links.size(); ++k)
-            arriving[6 + k] += static_cast<float>(rho[static_cast<int>(k % 3)]) * by_links[k];
+        for (std::size_t k = 0; k < by_links.size(); ++k) arriving[6 + k] += rho[static_cast<int>(k % 3)] * double{by_links[k]};
     }
     const auto take_in_last = [&] {
         for (std::size_t c = 0; c < 3; ++c) arriving[rest - 3 + c] += arriving[rest + c];
     };
     // Lights are found without the field, which has none from afar.
-    std::fill_n(arriving.begin(), 3, 0.0f);
+    std::fill_n(arriving.begin(), 3, 0.0);
     for (std::uint32_t link = 0; link < std::min<std::uint32_t>(l.links, static_cast<std::uint32_t>(stride_)); ++link) {
         take_in_last();
         std::copy_backward(arriving.begin(), arriving.end() - 3, arriving.end());
-        std::fill_n(arriving.begin(), 3, 0.0f);
+        std::fill_n(arriving.begin(), 3, 0.0);
     }
     take_in_last();
 }

@@ -28,9 +28,9 @@ public:
 private:
     std::uint64_t ask_lights_at_links(std::span<PixelRay> seen, const FieldPair& fields) const;
     void choose_directions(std::vector<PixelRay>& seen, std::uint32_t ray) const;
-    void read_or_go_on(PixelRay& l, const FieldPair& fields, bool compares, std::vector<float>& arriving) const;
+    void read_or_go_on(PixelRay& l, const FieldPair& fields, bool compares, std::vector<double>& arriving) const;
     void arrive(const FieldStack& field, const PixelRay& l, const Patches::Place& place, const FieldStack* replaced,
-                std::span<const float> by_links, std::vector<float>& arriving) const;
+                std::span<const float> by_links, std::vector<double>& arriving) const;
 
     const Scene& scene_;
     const PixelLights& lights_;

@@ -19,9 +19,9 @@ class FieldPixels {
 public:
     // Of a thread.
     struct Workspace {
-        std::vector<Sampler> samplers, gather_samplers;  // one for each sample; one for each pixel
+        std::vector<Sampler> samplers, gather_samplers;  // one for each sample that is read at once; one for each pixel
         std::vector<PixelSample> samples;
-        std::vector<float> values, difference;  // pixel by pixel; for the values, replicate by replicate; quantity by quantity
+        std::vector<double> values, difference;  // pixel by pixel; for the values, replicate by replicate; quantity by quantity
     };
 
     // Keeps references to both.

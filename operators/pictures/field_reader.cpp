@@ -12,18 +12,18 @@ namespace {
 // Readings of one field for one pixel, which mostly share their patches: each is read once, with the sum of its weights.
 class Readings {
 public:
-    void add(const PatchSpace::Reading& reading, float weight, float of_difference) {
+    void add(const PatchSpace::Reading& reading, double weight, double of_difference) {
         for (std::size_t i = 0; i < 4; ++i) {
-            const auto w = static_cast<float>(reading.weight[i]);
+            const double w = reading.weight[i];
             Unknown& u = find(reading.unknown[i]);
             u.weight += weight * w;
             u.of_difference += of_difference * w;
         }
     }
-    void add_field(const FieldStack& field, std::size_t first, float* values, float* difference) {
+    void add_field(const FieldStack& field, std::size_t first, double* values, double* difference) {
         for (const Unknown& u : unknowns_) {
-            if (u.weight != 0.0f) field.add(u.number, first, u.weight, values);
-            if (u.of_difference != 0.0f) field.add(u.number, first, u.of_difference, difference);
+            if (u.weight != 0.0) field.add(u.number, first, u.weight, values);
+            if (u.of_difference != 0.0) field.add(u.number, first, u.of_difference, difference);
         }
         unknowns_.clear();
     }
@@ -31,14 +31,14 @@ public:
 private:
     struct Unknown {
         std::uint32_t number;
-        float weight, of_difference;
+        double weight, of_difference;
     };
     // Only the last ones are looked through: what a pixel sees may have any number of patches.
     Unknown& find(std::uint32_t number) {
         constexpr std::size_t most = 12;
         for (std::size_t i = unknowns_.size(), end = i > most ? i - most : 0; i-- > end;)
             if (unknowns_[i].number == number) return unknowns_[i];
-        return unknowns_.emplace_back(number, 0.0f, 0.0f);
+        return unknowns_.emplace_back(number, 0.0, 0.0);
     }
 
     std::vector<Unknown> unknowns_;
@@ -71,15 +71,14 @@ NEUMANN_HOT RaysByBounce FieldReader::read(const FieldPair& fields, std::span<co
     // Gather rays from diffuse points leave out what comes to these by links.
     for (const PixelRay& l : std::span(to_gather, seen.end()))
         if (fields.by_links && l.diffuse)
-            fields.by_links->kept.add(fields.fine.space().read(l.x, l.wo), from_field_, static_cast<float>(l.sample->weight),
-                                      l.sample->values);
+            fields.by_links->kept.add(fields.fine.space().read(l.x, l.wo), from_field_, l.sample->weight, l.sample->values);
     rays[2] = gather_.add(fields, std::span(to_gather, seen.end()));
     return rays;
 }
 
 void FieldReader::add_patches(const FieldPair& fields, std::span<const PixelRay> seen) const {
     for (const PixelRay& l : seen) {
-        const auto weight = static_cast<float>(l.sample->weight), of_difference = weight * l.sample->difference_weight;
+        const double weight = l.sample->weight, of_difference = weight * l.sample->difference_weight;
         const std::uint32_t unknown = fields.fine.space().unknown(l.x, l.wo);
         fields.fine.add(unknown, 0, weight, l.sample->values);
         if (!l.sample->difference) continue;
@@ -93,17 +92,17 @@ void FieldReader::add_interpolated(const FieldPair& fields, std::span<const Pixe
                      &coarse = fields.by_links ? fields.by_links->coarse : fields.coarse;
     Readings of_fine, of_coarse;
     for (std::size_t begin = 0, end = 0; begin < seen.size(); begin = end) {
-        float* const values = seen[begin].sample->values;
-        float* difference = nullptr;
+        double* const values = seen[begin].sample->values;
+        double* difference = nullptr;
         for (; end < seen.size() && seen[end].sample->values == values; ++end) {
             const PixelRay& l = seen[end];
             const Patches::Place place = fields.fine.space().patches().place(l.x);
-            const auto weight = static_cast<float>(l.sample->weight), of_difference = weight * l.sample->difference_weight;
+            const double weight = l.sample->weight, of_difference = weight * l.sample->difference_weight;
             const bool compared = l.sample->difference;
-            of_fine.add(fine.space().read(l.x, place, l.wo), weight, compared ? of_difference : 0.0f);
+            of_fine.add(fine.space().read(l.x, place, l.wo), weight, compared ? of_difference : 0.0);
             if (!compared) continue;
             difference = l.sample->difference;
-            of_coarse.add(coarse.space().read(l.x, place, l.wo), 0.0f, -of_difference);
+            of_coarse.add(coarse.space().read(l.x, place, l.wo), 0.0, -of_difference);
         }
         of_fine.add_field(fine, from_field_, values, difference);
         of_coarse.add_field(coarse, from_field_, values, difference);

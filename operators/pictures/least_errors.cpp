@@ -27,6 +27,12 @@ Rgb times(const Rgb& a, const Rgb& b) {
     return product;
 }
 
+// Whether what a path of this quantity brings has no bound: it falls with the distance of a vertex from the camera, or with the
+// radius in which photons are read, and grows with 1/p of a light that is chosen seldom.
+bool samples_have_no_bound(PathGenerator generator, std::size_t q) {
+    return generator == PathGenerator::light || (generator == PathGenerator::photon && q > 1);
+}
+
 // Upper bounds of what is measured of K^i Le, for each bounce, and of the rest, per channel.
 std::vector<Rgb> bounds(const Scene& scene, const SamplingSettings& settings) {
     const Rgb albedo = scene.materials.largest_albedo(),
@@ -66,6 +72,8 @@ public:
           stride_(settings.quantities()),
           layout_(settings.layout(scene.film)),
           size_(settings.replicate_size),
+          roulette_(settings.walk.roulette),
+          rest_probability_(settings.walk.rest_probability),
           bounds_(bounds(scene, settings)) {
         lights_ = seen_lights(scene, settings.seed);
         find_albedo(settings.seed);
@@ -83,6 +91,7 @@ public:
         const Rgb in_picture = has_chains_ && q > 0 ? weight_in_picture(term) : Rgb(0.0);
         std::vector<float> errors(3 * pixels);
         std::vector<Rgb> differences(pixels, Rgb(0.0));  // D of the pixels whose samples are all 0
+        const Rgb unmet = brought_by_unmet(q);
         oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::size_t>(0, pixels, 1024), [&](const auto& range) {
             for (std::size_t pixel = range.begin(); pixel < range.end(); ++pixel) {
                 const Rgb nearby = difference_nearby(pixel, q);
@@ -92,24 +101,29 @@ public:
                     const double mean = term.mean.pixels[pixel][c], error = term.standard_error.pixels[pixel][c];
                     double d = nearby[c];
                     if (mean == 0.0 && error == 0.0) {
-                        if (d == 0.0) d = difference_elsewhere(pixel, q, c);
+                        if (d == 0.0) d = difference_elsewhere(pixel, q, c, unmet[c]);
                         differences[pixel][c] = d;
                     }
                     if (d == 0.0) continue;
                     const bool agree = error <= agreement * std::abs(mean);
                     double h = expectation_above(mean, error * error, weight[c]);
                     if (agree || !samples_are_mixtures(q)) h = std::max(h, least_half_width(d, samples * part, agree));
-                    if (mean == 0.0) h = std::min(h, bounds_[q][c]);
+                    if (mean == 0.0) h = std::min(h, largest_mean(pixel, q, c));
                     errors[3 * pixel + static_cast<std::size_t>(c)] = static_cast<float>(h / t);
                 }
             }
         });
         Quantity found;
         if (is_zero(term.mean)) {
-            Rgb d(0.0), at_most(0.0);
-            for (const Rgb& difference : differences) d = glm::max(d, difference);
+            Rgb d(0.0), at_most(0.0), means(0.0);
+            for (std::size_t pixel = 0; pixel < pixels; ++pixel)
+                for (int c = 0; c < 3; ++c) {
+                    if (differences[pixel][c] == 0.0) continue;
+                    d[c] = std::max(d[c], differences[pixel][c]);
+                    means[c] += largest_mean(pixel, q, c) / static_cast<double>(pixels);
+                }
             for (int c = 0; c < 3; ++c)
-                at_most[c] = std::min(bounds_[q][c], rule_of_three * d[c] / (samples * static_cast<double>(pixels)));
+                at_most[c] = std::min(means[c], rule_of_three * d[c] / (samples * static_cast<double>(pixels)));
             found.mean_at_most = mean_component(at_most);
         }
         found.of_mean = error_of_mean(q, samples * static_cast<double>(pixels)) / t;
@@ -165,28 +179,53 @@ private:
         const double error = term.standard_error.pixels[pixel][c];
         events.add(term.mean.pixels[pixel][c], error * error);
     }
-    // D if all samples of the pixel and its neighbours are 0.
-    double difference_elsewhere(std::size_t pixel, std::size_t q, int c) const {
+    // D if all samples of the pixel and its neighbours are 0. `unmet`: if all of the picture are.
+    double difference_elsewhere(std::size_t pixel, std::size_t q, int c, double unmet) const {
         if (bounds_[q][c] == 0.0) return 0.0;
-        if (q == 0) return lights_.pixels[pixel][c];
+        if (q == 0)
+            return lights_.pixels[pixel][c] > 0.0 && samples_have_no_bound(generator_, q) ? infinity : lights_.pixels[pixel][c];
         if (albedo_.pixels[pixel][c] == 0.0) return 0.0;
-        return largest_[c] > 0.0 ? largest_[c] : bounds_[q][c];
+        return met_[c] > 0.0 ? met_[c] : unmet;
     }
-    // Updates largest_ with the quantity's samples in the whole picture; if all are 0, the value of the previous quantity stays.
+    // What the quantity can be at most in a pixel.
+    double largest_mean(std::size_t pixel, std::size_t q, int c) const {
+        return q == 0 && samples_have_no_bound(generator_, q) ? lights_.pixels[pixel][c] : bounds_[q][c];
+    }
+    // What a sample of the quantity may bring if none of the picture has brought anything: as much as one of an earlier bounce, or
+    // at most what the bounds leave. Those that roulette lets go on bring more; who goes on into the rest brings all of it, at 1/p.
+    Rgb brought_by_unmet(std::size_t q) const {
+        if (samples_have_no_bound(generator_, q)) return Rgb(infinity);
+        const bool is_rest = q + 1 == quantities_;
+        const Rgb albedo = scene_->materials.largest_albedo();
+        Rgb brought(0.0);
+        for (int c = 0; c < 3; ++c) {
+            if (bounds_[q][c] == 0.0) continue;
+            double sample = largest_[c] > 0.0 ? largest_[c] : bounds_[q][c];
+            if (roulette_.kind == Roulette::Kind::fixed)
+                sample = is_rest ? infinity : sample / std::pow(roulette_.survival, static_cast<double>(q));
+            else if (is_rest && largest_[c] > 0.0)
+                sample *= albedo[c] < 1.0 ? albedo[c] / (1.0 - albedo[c]) : infinity;
+            brought[c] = is_rest ? sample / rest_probability_ : sample;
+        }
+        return brought;
+    }
+    // Updates met_ and largest_ with the quantity's samples in the whole picture; if all are 0, largest_ stays as it was.
     void remember_largest(std::size_t q) {
-        Rgb largest(0.0);
+        met_ = Rgb(0.0);
         for (std::size_t pixel = 0; pixel < result_->pixels(); ++pixel)
-            for (int c = 0; c < 3; ++c) largest[c] = std::max(largest[c], double{range(pixel, q).largest[c]});
+            for (int c = 0; c < 3; ++c) met_[c] = std::max(met_[c], double{range(pixel, q).largest[c]});
         for (int c = 0; c < 3; ++c)
-            if (largest[c] > 0.0) largest_[c] = largest[c];
+            if (met_[c] > 0.0) largest_[c] = met_[c];
     }
-    // Finds the albedo seen in those pixels, and their neighbours, in which some bounce is 0.
+    // Finds the albedo seen in those pixels, and their neighbours, in which some bounce is 0; and the light seen there, if paths
+    // from the camera have not looked for it, for lights that are dim are not among the points on lights, which are chosen by
+    // power.
     void find_albedo(std::uint64_t seed) {
         const std::size_t pixels = result_->pixels();
         const int width = result_->width(), height = result_->height();
         std::vector<char> wanted(pixels, 0);
         const auto has_unmet = [&](std::size_t pixel) {
-            for (std::size_t q = 1; q < quantities_; ++q) {
+            for (std::size_t q = generator_ == PathGenerator::light ? 0 : 1; q < quantities_; ++q) {
                 const Rgb mean = result_->term_at(pixel, q);
                 for (int c = 0; c < 3; ++c)
                     if (mean[c] == 0.0 && bounds_[q][c] > 0.0) return true;
@@ -195,11 +234,16 @@ private:
         };
         for (std::size_t pixel = 0; pixel < pixels; ++pixel)
             if (has_unmet(pixel)) for_neighbourhood(width, height, pixel, [&](std::size_t other) { wanted[other] = 1; });
-        const Image seen = seen_albedo(*scene_, wanted, seed);
-        albedo_ = seen;
+        const SeenByRays seen = seen_by_rays(*scene_, wanted, seed);
+        albedo_ = seen.albedo;
         for (std::size_t pixel = 0; pixel < pixels; ++pixel)
             for_neighbourhood(width, height, pixel, [&](std::size_t other) {
-                albedo_.pixels[pixel] = glm::max(albedo_.pixels[pixel], seen.pixels[other]);
+                albedo_.pixels[pixel] = glm::max(albedo_.pixels[pixel], seen.albedo.pixels[other]);
+            });
+        if (generator_ != PathGenerator::light) return;
+        for (std::size_t pixel = 0; pixel < pixels; ++pixel)
+            for_neighbourhood(width, height, pixel, [&](std::size_t other) {
+                lights_.pixels[pixel] = glm::max(lights_.pixels[pixel], seen.emitted.pixels[other]);
             });
     }
 
@@ -211,8 +255,10 @@ private:
     std::size_t quantities_, stride_;
     SampleLayout layout_;
     std::uint32_t size_;
+    Roulette roulette_;
+    double rest_probability_;
     std::vector<Rgb> bounds_;
-    Rgb largest_{0.0};
+    Rgb met_{0.0}, largest_{0.0};  // the largest sample of the quantity in the picture; of it, or else of an earlier one
     Image lights_, albedo_;
 };
 

@@ -7,9 +7,9 @@
 //
 // with n samples per pixel, t of the 95% interval, and D the largest minus the smallest sample of the pixel and its eight
 // neighbours. If these are all 0 but light may be there, D is the largest sample of this bounce in the picture; failing that, of an
-// earlier bounce; failing that, ‖Le‖∞ a^i. h is at most ‖K^i Le‖∞ ≤ ‖Le‖∞ a^i, where a is the largest albedo. The bound is 0 where
-// it is known that nothing is there: channels without light or albedo, bounces that the plan proves empty, and pixels around which
-// no ray meets a reflecting surface.
+// earlier bounce, or ‖Le‖∞ a^i, more for who survives roulette, or no bound at all (what a path of `light` or a photon brings).
+// h ≤ ‖K^i Le‖∞ ≤ ‖Le‖∞ a^i, where a is the largest albedo. The bound is 0 where it is known that nothing is there: channels without
+// light or albedo, bounces that the plan proves empty, and pixels around which no ray meets a reflecting surface.
 #pragma once
 
 #include "operators/pictures/rendered_series.h"

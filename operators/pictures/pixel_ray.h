@@ -12,22 +12,22 @@
 
 namespace neumann {
 
-// A camera ray, and where its sample times `weight` is added: `values` has three floats for each quantity of FieldStack.
+// A camera ray, and where its sample times `weight` is added: `values` has three numbers for each quantity of FieldStack.
 // `difference`, if not null, gets `difference_weight` times the sample from the finer patches minus that from the coarser ones.
 // `sampler` continues after the numbers that made the camera ray. `gather_sampler` is shared by all gather rays of the pixel, so
 // that they are stratified together; those of this sample start at `first_gather_ray`.
 struct PixelSample {
     CameraRay ray;
     double weight;
-    float* values;
-    float* difference;
-    float difference_weight;
+    double* values;
+    double* difference;
+    double difference_weight;
     Sampler* sampler;
     Sampler* gather_sampler;
     std::uint64_t first_gather_ray;
 
     void add(std::size_t bounce, const Rgb& x) const {
-        for (int c = 0; c < 3; ++c) values[3 * bounce + static_cast<std::size_t>(c)] += static_cast<float>(x[c]);
+        for (int c = 0; c < 3; ++c) values[3 * bounce + static_cast<std::size_t>(c)] += x[c];
     }
 };
 

@@ -19,12 +19,14 @@ constexpr std::uint64_t rays_of_pixel = 8, points_on_lights = 4096;
 
 }  // namespace
 
-Image seen_albedo(const Scene& scene, const std::vector<char>& wanted, std::uint64_t seed) {
+SeenByRays seen_by_rays(const Scene& scene, const std::vector<char>& wanted, std::uint64_t seed) {
     const auto& bsdfs = scene.materials.bsdfs();
     std::vector<Rgb> albedos;
     for (const Bsdf& bsdf : bsdfs) albedos.push_back(largest_albedo(bsdf));
-    Image seen(scene.film.crop_width, scene.film.crop_height);
-    oneapi::tbb::parallel_for(std::size_t{0}, seen.pixels.size(), [&](std::size_t number) {
+    const Image black(scene.film.crop_width, scene.film.crop_height);
+    SeenByRays seen{black, black};
+    const double response = scene.camera.largest_response();
+    oneapi::tbb::parallel_for(std::size_t{0}, black.pixels.size(), [&](std::size_t number) {
         if (!wanted[number]) return;
         const Pixel pixel = pixel_of(scene.film, static_cast<std::uint32_t>(number));
         Sampler sampler(seed ^ albedo_stream, static_cast<std::uint32_t>(number));
@@ -33,11 +35,17 @@ Image seen_albedo(const Scene& scene, const std::vector<char>& wanted, std::uint
             const CameraRay ray = sample_camera(scene, pixel.x, pixel.y, sampler).ray;
             SurfacePoint x;
             std::uint64_t rays = 0;
-            if (!scene.geometry.first_hit(ray.origin, ray.direction, ray.length, x)) continue;
+            const bool hit = scene.geometry.first_hit(ray.origin, ray.direction, ray.length, x);
+            if (!hit) x.shape = SurfacePoint::infinity;
+            if (!scene.hide_emitters)
+                seen.emitted.pixels[number] =
+                    glm::max(seen.emitted.pixels[number], scene.emitters.emitted(x, -ray.direction) * response);
+            if (!hit) continue;
             if (scene.hide_emitters && !pass_lights(scene.emitters, scene.geometry, ray.direction, x, rays)) continue;
             const SurfaceSide side = scene.materials.side(x, -ray.direction);
             if (!side.bsdf) continue;
-            seen.pixels[number] = glm::max(seen.pixels[number], albedos[static_cast<std::size_t>(side.bsdf - bsdfs.data())]);
+            seen.albedo.pixels[number] =
+                glm::max(seen.albedo.pixels[number], albedos[static_cast<std::size_t>(side.bsdf - bsdfs.data())]);
         }
     });
     return seen;

@@ -9,9 +9,12 @@
 
 namespace neumann {
 
-// For each `wanted` pixel, the largest albedo of the surfaces that some rays through it hit; 0 if none reflects. The same bits on
-// any number of threads.
-Image seen_albedo(const Scene& scene, const std::vector<char>& wanted, std::uint64_t seed);
+// For each `wanted` pixel, the largest albedo of the surfaces that some rays through it hit, and the largest measured value of the
+// light that comes along them; 0 if none reflects, and if none brings light. The same bits on any number of threads.
+struct SeenByRays {
+    Image albedo, emitted;
+};
+SeenByRays seen_by_rays(const Scene& scene, const std::vector<char>& wanted, std::uint64_t seed);
 
 // For each pixel, the largest measured value of sampled points on lights that the camera sees there. This finds lights that are too
 // small for camera rays to hit.

@@ -29,10 +29,11 @@ SolverResult solve_bicgstab(const Problem& problem) {
     const Vector scaled = system.scaled(problem.Le);
     // Tolerance of the residual, relative to that of x = 0.
     const double least = std::numeric_limits<double>::epsilon();
-    double goal = std::max(problem.tolerance * (problem.radius && *problem.radius < 1.0 ? 1.0 - *problem.radius : 1.0), least);
+    double goal = log.first_goal();
     for (;;) {
         bicgstab.setTolerance(goal);
-        bicgstab.setMaxIterations(std::max<Eigen::Index>(1, (problem.most - static_cast<Eigen::Index>(log.applications())) / 2));
+        bicgstab.setMaxIterations(
+            std::max<Eigen::Index>(1, (problem.most - static_cast<Eigen::Index>(log.own_applications())) / 2));
         y = bicgstab.solveWithGuess(scaled, Vector(y));
         look();
         x = system.unscaled(y);

@@ -31,15 +31,16 @@ SolverResult solve_eigenpair_tail(const Problem& problem) {
     ChangeRate rate;
     for (;;) {
         // The part of t_n outside the leading mode.
-        const double amount = w.dot(series.term()) / scale;
+        const double amount = lambda == 0.0 ? 0.0 : w.dot(series.term()) / scale;
         const double other = log.largest(series.term() - amount * v);
         const Vector x = series.sum() + lambda / (1.0 - lambda) * amount * v;
         rate.add(other);
-        const double rounding = log.rounding(std::max(rate.rate(), std::abs(lambda)));
-        if (log.reached(x, log.largest(series.term()) == 0.0 ? 0.0 : std::max(rate.estimate() / log.largest(x), rounding)))
+        const double rounding = log.rounding(std::max(rate.rate(), std::abs(lambda))), tail = log.tail(other, rate);
+        if (log.reached(x, log.largest(series.term()) == 0.0 ? 0.0 : std::max(tail / log.largest(x), rounding)))
             return log.end(x, Verdict::converged, fmt::format("the other modes fall at the rate {:.6g}", rate.rate()));
-        if (!std::isfinite(scale) || !log.all_finite(x)) return log.end(x, Verdict::broke_down, "the leading eigenvector is defective");
-        if (log.is_rounding(rate.estimate(), x)) return log.end_rounding(x, rounding);
+        if (!std::isfinite(scale) || !log.all_finite(x))
+            return log.end(x, Verdict::broke_down, "the leading eigenvector is defective");
+        if (log.is_rounding(tail, x)) return log.end_rounding(x, rounding);
         // These parts fall in the end; what remains is the error of the leading eigenpair.
         if (rate.not_falling() && other <= 1e-8 * log.largest(series.term()))
             return log.end(x, Verdict::rounding, "the other modes are down to the accuracy of the leading one");

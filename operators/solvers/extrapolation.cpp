@@ -13,7 +13,7 @@ SolverResult solve_extrapolated(const Problem& problem, const Extrapolate& extra
     SolverLog log(problem);
     TermSeries series(*problem.K, problem.Le);
     ChangeRate rate;
-    Vector x, last, residual;
+    Vector x, last, residual, before_last;
     int steady = 0, wait = 2;
     for (;;) {
         std::optional<Trouble> trouble = extrapolate(series, x);
@@ -34,16 +34,16 @@ SolverResult solve_extrapolated(const Problem& problem, const Extrapolate& extra
             wait *= 2;
         }
         // Even if the extrapolation fails, the terms themselves may have converged.
-        const double rounding = log.rounding(rate.rate());
-        if (rate.estimate() <= problem.tolerance * log.largest(sum) &&
-            log.reached(sum, std::max(rate.estimate() / log.largest(sum), rounding)))
+        const double rounding = log.rounding(rate.rate()), tail = log.tail(series, before_last, sum, rate);
+        if (tail <= problem.tolerance * log.largest(sum) && log.reached(sum, std::max(tail / log.largest(sum), rounding)))
             return log.end(sum, Verdict::converged,
-                           fmt::format("the plain sum, its tail estimated from the rate {:.6g}; extrapolated: {}", rate.rate(),
+                           fmt::format("the plain sum, its tail {}; extrapolated: {}", log.found_tail(rate),
                                        trouble ? trouble->why : "no two limits agree"));
-        if (log.is_rounding(rate.estimate(), sum)) return log.end_rounding(sum, rounding);
+        if (log.is_rounding(tail, sum)) return log.end_rounding(sum, rounding);
         if (rate.not_falling() && log.diverges())
             return log.end_diverging(x, "the terms did not get smaller over the last 32 bounces");
         if (log.exhausted()) return trouble ? log.end(x, trouble->verdict, trouble->why) : log.end_limit(x);
+        before_last = series.before();
         series.advance();
         log.count(1.0);
     }

@@ -32,7 +32,7 @@ SolverResult solve_gmres(const Problem& problem, int restart) {
     Gmres gmres;
     bool begun = false;  // a step has begun; its residual is known when K is applied next
     const auto look = [&] {
-        const int k = static_cast<int>(log.applications());
+        const int k = static_cast<int>(log.own_applications());
         log.record(gmres.error(), problem.exact && k <= steps ? log.true_error(after_steps(problem, k))
                                                               : std::numeric_limits<double>::quiet_NaN());
     };
@@ -45,10 +45,10 @@ SolverResult solve_gmres(const Problem& problem, int restart) {
     gmres.set_restart(steps);
     // Tolerance of the residual, relative to that of x = 0.
     const double least = std::numeric_limits<double>::epsilon();
-    double goal = std::max(problem.tolerance * (problem.radius && *problem.radius < 1.0 ? 1.0 - *problem.radius : 1.0), least);
+    double goal = log.first_goal();
     for (;;) {
         gmres.setTolerance(goal);
-        gmres.setMaxIterations(std::max<Eigen::Index>(1, problem.most - static_cast<Eigen::Index>(log.applications())));
+        gmres.setMaxIterations(std::max<Eigen::Index>(1, problem.most - static_cast<Eigen::Index>(log.own_applications())));
         const Vector guess = system.scaled(x);
         x = system.unscaled(gmres.solveWithGuess(system.scaled(problem.Le), guess));
         look();

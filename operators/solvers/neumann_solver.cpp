@@ -2,8 +2,6 @@
 #include "operators/solvers/solver_log.h"
 #include "operators/solvers/term_series.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
 namespace neumann {
@@ -12,18 +10,20 @@ SolverResult solve_neumann(const Problem& problem) {
     SolverLog log(problem);
     TermSeries series(*problem.K, problem.Le);
     ChangeRate rate;
+    Vector before_last;
     for (;;) {
         const Vector x = series.sum();
         const double term = log.largest(series.term());
         if (!log.all_finite(x)) return log.end_overflow(x, "the terms");
         rate.add(term);
-        const double rounding = log.rounding(rate.rate());
-        if (log.reached(x, term == 0.0 ? 0.0 : std::max(rate.estimate() / log.largest(x), rounding)))
-            return log.end(x, Verdict::converged, fmt::format("the tail is estimated from the rate {:.6g}", rate.rate()));
-        if (log.is_rounding(rate.estimate(), x)) return log.end_rounding(x, rounding);
+        const double rounding = log.rounding(rate.rate()), tail = log.tail(series, before_last, x, rate);
+        if (log.reached(x, term == 0.0 ? 0.0 : std::max(tail / log.largest(x), rounding)))
+            return log.end(x, Verdict::converged, "the tail is " + log.found_tail(rate));
+        if (log.is_rounding(tail, x)) return log.end_rounding(x, rounding);
         if (rate.not_falling() && log.diverges())
             return log.end_diverging(x, "the terms did not get smaller over the last 32 bounces");
         if (log.exhausted()) return log.end_limit(x);
+        before_last = series.before();
         series.advance();
         log.count(1.0);
     }

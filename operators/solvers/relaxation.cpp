@@ -30,7 +30,9 @@ SolverResult solve_sor(const Problem& problem, double omega) {
         if (!log.all_finite(x)) return log.end_overflow(x, "the iterates");
         rate.add(change);
         const double rounding = log.rounding(rate.rate()), size = log.largest(x);
-        if (log.reached(x, size == 0.0 ? 0.0 : std::max(change == 0.0 ? 0.0 : rate.estimate() / size, rounding)))
+        // What an unknown's residual keeps of its own change.
+        const double kept = std::abs(1.0 / omega - 1.0);
+        if (log.reached(x, size == 0.0 ? 0.0 : std::max(change == 0.0 ? 0.0 : log.tail(change, rate, kept) / size, rounding)))
             return log.end(x, Verdict::converged, fmt::format("the changes fall at the rate {:.6g}", rate.rate()));
         if (log.is_rounding(change, x, !rate.not_falling())) return log.end_rounding(x, rounding);
         if (rate.not_falling() && log.diverges())

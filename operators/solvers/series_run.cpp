@@ -1,6 +1,8 @@
 #include "operators/solvers/series_run.h"
 
 #include "operators/series/change_rate.h"
+#include "operators/solvers/enclosed_terms.h"
+#include "operators/solvers/inverse_bound.h"
 #include "operators/spectrum/radius_evidence.h"
 
 #include <fmt/format.h>
@@ -8,19 +10,6 @@
 namespace neumann {
 
 namespace {
-
-// Compares neighbouring terms first, and every second term if neighbours alternate.
-Enclosure enclose_last(const TermSeries& series, const Vector& before_last, const Vector& sum, const Agreement& agreement) {
-    Enclosure enclosure;
-    if (series.bounce() == 0) {
-        enclosure.why = "there is only one term";
-        return enclosure;
-    }
-    enclosure = enclose(series.before(), series.term(), sum, series.term(), agreement);
-    if (enclosure.exists || series.bounce() == 1) return enclosure;
-    Enclosure second = enclose(before_last, series.term(), sum, series.before() + series.term(), agreement);
-    return second.exists ? second : enclosure;
-}
 
 double rate_over(const std::vector<SeriesRow>& rows) {
     const std::size_t n = rows.size() - 1, k = std::min<std::size_t>(n, 16);
@@ -41,6 +30,7 @@ SeriesRun run_series(const ChannelOperator& K, const Vector& Le, const SeriesOpt
     TermSeries series(K, Le);
     ChangeRate rate;
     RadiusEvidence evidence(&K, bounded ? options.norm : std::nullopt);
+    std::optional<double> inverse;  // a bound on ‖(I − K)⁻¹‖∞, once it was asked for
     Vector before_last;
     const double emitted = agreement.size(Le);
     const auto end = [&](Verdict verdict, std::string why) {
@@ -81,8 +71,14 @@ SeriesRun run_series(const ChannelOperator& K, const Vector& Le, const SeriesOpt
             return close(fmt::format("enclosed between quotients {:.6g} and {:.6g}", run.enclosure.c1, run.enclosure.c2));
         }
         if (row.a_posteriori <= allowed) return close(fmt::format("bounded with a = {:.6g}", a));
-        if (!bounded && !run.enclosure.exists && row.estimate <= allowed)
-            return close(fmt::format("estimated from the rate {:.6g}, not bounded: {}", rate.rate(), run.enclosure.why));
+        if (!bounded && !run.enclosure.exists && row.estimate <= allowed) {
+            if (!inverse) inverse = bound_inverse(K).norm;
+            if (*inverse == infinity)
+                return close(fmt::format("estimated from the rate {:.6g}, not bounded: {}", rate.rate(), run.enclosure.why));
+            // What follows is (I − K)⁻¹ K t_n, and K (I − K)⁻¹ 1 = (I − K)⁻¹ 1 − 1.
+            if (row.term.sup * (*inverse - 1.0) <= allowed)
+                return close(fmt::format("bounded with ‖(I − K)⁻¹‖∞ ≤ {:.6g}", *inverse));
+        }
         if (rate.not_falling() && evidence.shows_divergence())
             return end(Verdict::diverging,
                        fmt::format("not converging: the terms did not get smaller over the last 32 bounces, rate "

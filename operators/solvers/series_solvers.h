@@ -7,7 +7,7 @@
 
 namespace neumann {
 
-// x = S_n, with compensated summation. The estimate is the ChangeRate of ‖t_n‖∞.
+// x = S_n, with compensated summation. The estimate is that of SolverLog::tail().
 SolverResult solve_neumann(const Problem&);
 
 // x = S_n + t_n λ/(1−λ) with one ratio for all unknowns, λ = ⟨t_n, t_n⟩ / ⟨t_n, t_{n−1}⟩. If |λ| ≥ 1, for example if terms

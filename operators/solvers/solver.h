@@ -25,7 +25,8 @@ struct Problem {
     Vector Le = {};
     double tolerance = 1e-6;              // of the estimated error, relative to ‖x‖∞
     Eigen::Index most = 10000;            // largest number of applications of K
-    std::optional<double> radius = {};    // spectral radius of K, or a bound or estimate of it; turns residuals into errors
+    std::optional<double> radius = {};    // spectral radius of K, or a bound or estimate of it; turns residuals into errors where
+                                          // ‖(I − K)⁻¹‖∞ has no bound (inverse_bound.h)
     std::optional<double> lowest = {};    // lowest eigenvalue of a K with a real spectrum; −radius without it
     const Vector* reflectance = nullptr;  // ρ of each unknown if K = diag(ρ) F with F reciprocal, measure_u F_uv = measure_v F_vu
     const Vector* exact = nullptr;        // L, to record the true error
@@ -37,7 +38,7 @@ struct SolverResult {
     Verdict verdict = Verdict::limit;
     std::string why;
     double applications = 0.0;  // of K, setup included; a relaxation of one of n unknowns counts as 1/n
-    double setup = 0.0;         // applications before the first iterate
+    double setup = 0.0;         // applications before the first iterate, and those that bound errors
     std::vector<SolverStep> history;
 };
 

@@ -1,5 +1,7 @@
 #include "operators/solvers/solver_log.h"
 
+#include "operators/solvers/enclosed_terms.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -26,21 +28,50 @@ void SolverLog::apply(const Vector& x, Vector& y) {
     count(1.0);
 }
 
-double SolverLog::from_residual(const Vector& r, const Vector& x, double rate) const {
-    const double size = largest(x), residual = largest(r);
-    if (residual == 0.0 && size == 0.0) return 0.0;
-    double amplification = 1.0;
-    if (problem_.radius && *problem_.radius < 1.0)
-        amplification = 1.0 / (1.0 - *problem_.radius);
-    else if (!problem_.radius)
-        amplification = std::max(size / largest(problem_.Le), rate < 1.0 ? 1.0 / (1.0 - rate) : 1.0);
-    return std::max(residual * amplification / size, rounding(rate));
+bool SolverLog::is_bounded() {
+    if (!inverse_) {
+        inverse_ = bound_inverse(K());
+        count(inverse_->applications);
+        result_.setup += inverse_->applications;
+    }
+    return std::isfinite(inverse_->norm);
 }
 
-double SolverLog::rounding(double rate) const {
-    if (problem_.radius && *problem_.radius < 1.0) rate = *problem_.radius;
-    return epsilon / (rate < 1.0 ? 1.0 - rate : 1.0);
+double SolverLog::amplification(const Vector* x, double rate) {
+    double least = 1.0;
+    if (problem_.radius) {
+        if (*problem_.radius < 1.0) least = 1.0 / (1.0 - *problem_.radius);
+    } else {
+        if (x) least = largest(*x) / largest(problem_.Le);
+        if (rate < 1.0) least = std::max(least, 1.0 / (1.0 - rate));
+    }
+    return is_bounded() ? std::max(inverse_->norm, least) : least;
 }
+
+double SolverLog::from_residual(const Vector& r, const Vector& x, double rate) {
+    const double size = largest(x), residual = largest(r);
+    if (residual == 0.0 && size == 0.0) return 0.0;
+    return std::max(residual * amplification(&x, rate) / size, rounding(rate));
+}
+
+double SolverLog::tail(double change, const ChangeRate& rate, double more) {
+    // (I − K)⁻¹ K 1 = (I − K)⁻¹ 1 − 1.
+    return is_bounded() ? change * (amplification() - 1.0 + amplification() * more) : rate.estimate();
+}
+
+double SolverLog::tail(const TermSeries& series, const Vector& before_last, const Vector& sum, const ChangeRate& rate) {
+    const double bound = tail(largest(series.term()), rate);
+    const Enclosure enclosure = enclose_last(series, before_last, sum, K().agreement());
+    if (!enclosure.exists) return bound;
+    const double enclosed = largest(enclosure.high - sum);
+    return is_bounded() ? std::min(bound, enclosed) : enclosed;
+}
+
+std::string SolverLog::found_tail(const ChangeRate& rate) {
+    return fmt::format("{} the rate {:.6g}", is_bounded() ? "bounded, at" : "estimated from", rate.rate());
+}
+
+double SolverLog::first_goal() { return std::max(problem_.tolerance / amplification(), epsilon); }
 
 bool SolverLog::is_rounding(double change, const Vector& x, bool falling) const {
     const double size = largest(x);

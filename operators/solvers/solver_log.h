@@ -3,7 +3,9 @@
 
 #include "core/base/stopwatch.h"
 #include "operators/series/change_rate.h"
+#include "operators/solvers/inverse_bound.h"
 #include "operators/solvers/solver.h"
+#include "operators/solvers/term_series.h"
 #include "operators/spectrum/radius_evidence.h"
 
 namespace neumann {
@@ -23,16 +25,31 @@ public:
     double applications() const { return result_.applications; }
     void count(double applications) { result_.applications += applications; }
     void setup_ends() { result_.setup = result_.applications; }
-    // Whether all allowed applications are used up, not counting those of diverges().
-    bool exhausted() const { return result_.applications - evidence_.applications() >= static_cast<double>(problem_.most); }
+    // Those that serve the answer, and not what is said of it: without those of diverges() and of bound_inverse().
+    double own_applications() const {
+        return result_.applications - evidence_.applications() - (inverse_ ? inverse_->applications : 0.0);
+    }
+    // Whether all allowed applications are used up.
+    bool exhausted() const { return own_applications() >= static_cast<double>(problem_.most); }
 
-    // Error of x estimated from its residual r = Le + K x − x: ‖r‖∞ / (1 − radius) / ‖x‖∞. If the radius is not given, the larger
-    // of ‖x‖∞ / ‖Le‖∞ and 1 / (1 − rate) replaces 1 / (1 − radius); both are lower bounds of the norm of (I − K)⁻¹. The result is
-    // at least the rounding error of x.
-    double from_residual(const Vector& r, const Vector& x, double rate = 0.0) const;
-    // ε / (1 − q): the error, relative to x, of rounding each term or change by ε if they fall like q^n. q is the radius if it is
-    // known to be below 1, and otherwise `rate`.
-    double rounding(double rate = 0.0) const;
+    // ‖(I − K)⁻¹‖∞, which errors are residuals times: a bound (inverse_bound.h), found at the first call. Where there is none,
+    // 1 / (1 − radius), and without a radius the larger of ‖x‖∞ / ‖Le‖∞ and 1 / (1 − rate), if they are given; these are lower
+    // bounds.
+    double amplification(const Vector* x = nullptr, double rate = 0.0);
+    // Error of x from its residual r = Le + K x − x, relative to ‖x‖∞; at least the rounding error of x.
+    double from_residual(const Vector& r, const Vector& x, double rate = 0.0);
+    // ‖x − L‖∞ after a change of the size `change`, of which K makes the residual, and `more` times it is left beside: the last
+    // term of a series, or what a sweep of relaxation changed. Bounded by the amplification, or else estimated from the rate.
+    double tail(double change, const ChangeRate& rate, double more = 0.0);
+    // The same of a series, which may be enclosed as well (operators/series/enclosure.h). `before_last`: the term before
+    // series.before(); `sum`: series.sum().
+    double tail(const TermSeries& series, const Vector& before_last, const Vector& sum, const ChangeRate& rate);
+    // How that was found, in words.
+    std::string found_tail(const ChangeRate& rate);
+    // The tolerance of a residual, relative to Le, with which a Krylov method begins.
+    double first_goal();
+    // The error, relative to x, of rounding each term or change by ε.
+    double rounding(double rate = 0.0) { return std::numeric_limits<double>::epsilon() * amplification(nullptr, rate); }
     // Whether this residual or change consists of rounding errors, or is kept from falling by them alone.
     bool is_rounding(double change, const Vector& x, bool falling = true) const;
 
@@ -62,8 +79,12 @@ public:
     SolverResult end_rounding(Vector x, double error);
 
 private:
+    // Whether the amplification is a bound.
+    bool is_bounded();
+
     const Problem& problem_;
     RadiusEvidence evidence_;
+    std::optional<InverseBound> inverse_;
     SolverResult result_;
     Stopwatch watch_;
 };

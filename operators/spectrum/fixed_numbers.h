@@ -14,8 +14,11 @@ public:
         const auto own = static_cast<std::size_t>(K.size());
         x.resize(K.size());
         bits_.discard(K.first());
-        for (double& value : x) value = static_cast<double>(bits_() >> 11) * 0x1p-52 - 1.0;
+        fill(x);
         bits_.discard(K.unknowns() - K.first() - own);
+    }
+    void fill(Vector& x) {
+        for (double& value : x) value = static_cast<double>(bits_() >> 11) * 0x1p-52 - 1.0;
     }
 
 private:

@@ -30,7 +30,6 @@ protected:
     }
 };
 
-// An estimate may be a few times too small.
 TEST_F(SolveCommand, SolversAgreeWithLuOrSayWhyNot) {
     const double tolerance = 1e-7;
     for (const std::vector<std::string>& scene : {std::vector<std::string>{furnace, "-D", "albedo=0.9"},
@@ -46,7 +45,7 @@ TEST_F(SolveCommand, SolversAgreeWithLuOrSayWhyNot) {
                 EXPECT_EQ(solver["verdict"], "converged");
                 EXPECT_EQ(solver["error"], nullptr);
             } else if (solver["verdict"] == "converged") {
-                EXPECT_LE(solver["error"], 10.0 * tolerance) << scene[0] << solver["name"];
+                EXPECT_LE(solver["error"], 3.0 * tolerance) << scene[0] << solver["name"];
                 EXPECT_LE(solver["estimate"], tolerance) << solver["name"];
                 EXPECT_GE(solver["applications"], 1.0);
                 EXPECT_FALSE(solver["history"].empty());
@@ -60,11 +59,11 @@ TEST_F(SolveCommand, SolversAgreeWithLuOrSayWhyNot) {
     }
 }
 
-// n + 1 terms leave ρ^(n+1) of L = 1/(1 − ρ).
+// n + 1 terms leave ρ^(n+1) of L = 1/(1 − ρ); one application more bounds what they leave.
 TEST_F(SolveCommand, TheSeriesTakesAsLongAsTheFurnaceSays) {
     const auto j = json({furnace, "--patches", "60", "-D", "albedo=0.9"});
     EXPECT_EQ(j["solvers"][0]["name"], "neumann");
-    EXPECT_EQ(j["solvers"][0]["applications"], 131);
+    EXPECT_EQ(j["solvers"][0]["applications"], 131 + 1);
     EXPECT_NEAR(j["solvers"][0]["error"], std::pow(0.9, 132), 1e-12);
     const auto& history = j["solvers"][0]["history"];
     EXPECT_NEAR(history[50]["error"], std::pow(0.9, 51), 1e-12);

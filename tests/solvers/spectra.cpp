@@ -8,10 +8,12 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <Eigen/SVD>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <random>
 
 namespace neumann::spectra_test {
 
@@ -119,6 +121,125 @@ TEST(Spectra, TheRadiusOfWhatIsKeptForGood) {
     EXPECT_GE(wide.high, spectral_radius(some) * (1.0 - 1e-12));
     const RadiusBounds dark = radius_bounds(DenseChannel(DenseChannel::Matrix::Zero(3, 3), Vector::Ones(3)), 20.0);
     EXPECT_EQ(dark.high, 0.0);
+}
+
+// The integrating sphere, K = ρ aᵀ, has one eigenvalue that is not 0, its trace. Spaces close after two steps; so do those of
+// several spheres that do not see each other, after one step more than there are. ‖ρ aᵀ‖₂ = ‖ρ‖ ‖a‖.
+TEST(Spectra, SpacesThatCloseEarly) {
+    for (int seed = 0; seed < 200; ++seed) {
+        std::mt19937_64 bits(static_cast<std::uint64_t>(seed));
+        std::uniform_real_distribution<double> uniform;
+        const Eigen::Index spheres = 1 + seed % 5, each = 80 + seed % 7;
+        DenseChannel::Matrix matrix = DenseChannel::Matrix::Zero(spheres * each, spheres * each);
+        std::vector<double> traces;
+        double two = 0.0;
+        for (Eigen::Index s = 0; s < spheres; ++s) {
+            const Vector rho = Vector::NullaryExpr(each, [&] { return uniform(bits); }),
+                         a = Vector::NullaryExpr(each, [&] { return uniform(bits); }) / static_cast<double>(each);
+            matrix.block(s * each, s * each, each, each) = rho * a.transpose();
+            traces.push_back(rho.dot(a));
+            two = std::max(two, rho.norm() * a.norm());
+        }
+        std::ranges::sort(traces, std::greater());
+        for (const int power : {0, -150, 160}) {
+            const double scale = std::pow(10.0, power);
+            const DenseChannel K(scale * matrix, Vector::Ones(matrix.rows()));
+            for (const int count : {1, static_cast<int>(spheres) + 3}) {
+                const Eigenpairs found = leading_eigenpairs(K, count);
+                ASSERT_TRUE(found.converged) << seed << ": " << found.why;
+                ASSERT_EQ(found.pairs.size(), static_cast<std::size_t>(count));
+                for (std::size_t i = 0; i < found.pairs.size(); ++i) {
+                    const Eigenpair& pair = found.pairs[i];
+                    const double right = i < traces.size() ? traces[i] : 0.0;
+                    EXPECT_LE(std::abs(pair.value / scale - right), 1e-12) << seed << ", eigenvalue " << i + 1;
+                    EXPECT_LE((K.matrix() / scale * pair.vector - pair.value / scale * pair.vector).norm(), 1e-12) << seed;
+                    EXPECT_NEAR(pair.vector.norm(), 1.0, 1e-12);
+                }
+            }
+            EXPECT_NEAR(operator_norms(K).two / scale, two, 1e-9) << seed;
+        }
+    }
+}
+
+// K^m = 0, with the unknowns in any order: light ends after m bounces, all eigenvalues are 0 and not the m-th root of a rounding
+// error. On few unknowns, too, of which the matrix is formed.
+TEST(Spectra, LightThatEndsHasNoEigenvalueButZero) {
+    for (const Eigen::Index n : {1, 20, 65, 200})
+        for (const Eigen::Index layers : {1, 2, 3, 12}) {
+            std::mt19937_64 bits(static_cast<std::uint64_t>(100 * n + layers));
+            std::uniform_real_distribution<double> uniform;
+            std::vector<Eigen::Index> layer(static_cast<std::size_t>(n));
+            for (Eigen::Index& l : layer) l = static_cast<Eigen::Index>(bits() % static_cast<std::uint64_t>(layers));
+            DenseChannel::Matrix matrix(n, n);
+            for (Eigen::Index u = 0; u < n; ++u)
+                for (Eigen::Index v = 0; v < n; ++v)
+                    matrix(u, v) = layer[static_cast<std::size_t>(u)] > layer[static_cast<std::size_t>(v)] ? uniform(bits) : 0.0;
+            for (const double scale : {1.0, 1e-150, 1e160}) {
+                const DenseChannel K(scale * matrix, Vector::Ones(n));
+                for (const bool adjoint : {false, true}) {
+                    const Eigenpairs found = leading_eigenpairs(K, 4, adjoint);
+                    EXPECT_TRUE(found.converged) << n << ", " << layers << ": " << found.why;
+                    EXPECT_EQ(found.radius(), 0.0);
+                    EXPECT_EQ(found.pairs.size(), static_cast<std::size_t>(std::min<Eigen::Index>(n, 4)));
+                    for (const Eigenpair& pair : found.pairs) {
+                        EXPECT_EQ(pair.value, 0.0);
+                        EXPECT_EQ(pair.residual, 0.0);
+                        EXPECT_NEAR(pair.vector.norm(), 1.0, 1e-12);
+                    }
+                }
+                const double two = Eigen::JacobiSVD<Eigen::MatrixXd>(matrix).singularValues()[0];
+                EXPECT_NEAR(operator_norms(K).two / scale, two, 1e-12 * two);
+            }
+        }
+}
+
+// Light that ends, beside light that does not: a chain of mirrors into a room of 100 unknowns with λ = 0.8, and out of it again.
+TEST(Spectra, SomeLightEnds) {
+    const Eigen::Index chain = 30, room = 100;
+    DenseChannel::Matrix matrix = DenseChannel::Matrix::Zero(2 * chain + room, 2 * chain + room);
+    matrix.block(chain, chain, room, room).setConstant(0.8 / static_cast<double>(room));
+    for (Eigen::Index u = 0; u < chain; ++u) matrix(u + 1, u) = matrix(chain + room + u, chain + room + u - 1) = 1.0;
+    const Eigenpairs found = leading_eigenpairs(DenseChannel(matrix, Vector::Ones(matrix.rows())), 1);
+    EXPECT_TRUE(found.converged) << found.why;
+    EXPECT_NEAR(found.radius(), 0.8, 1e-10);
+}
+
+// A K that is sampled anew each time it is applied: what a search takes for converged is none.
+TEST(Spectra, ASearchIsNotTakenAtItsWord) {
+    class Noisy : public DenseChannel {
+    public:
+        using DenseChannel::DenseChannel;
+        void apply(const Vector& x, Vector& y) const override {
+            DenseChannel::apply(x, y);
+            for (double& value : y) value *= 1.0 + 1e-6 * (static_cast<double>(bits_() >> 11) * 0x1p-52 - 1.0);
+        }
+
+    private:
+        mutable std::mt19937_64 bits_{1};
+    };
+    const Cube cube = patched_cube(4);
+    const Noisy K(cube.channel(0.9).matrix(), Vector::Ones(cube.size()));
+    const Eigenpairs found = leading_eigenpairs(K, 1);
+    EXPECT_FALSE(found.converged);
+    EXPECT_TRUE(std::isnan(found.radius()));
+    ASSERT_EQ(found.pairs.size(), 1u);
+    EXPECT_GT(found.pairs[0].residual, 1e-8);
+    EXPECT_EQ(found.why, fmt::format("not found within {:.0f} applications of K, largest residual {:.1e}: K does not keep the "
+                                     "vectors that the search ended with",
+                                     found.applications, found.pairs[0].residual / std::abs(found.pairs[0].value)));
+}
+
+TEST(Spectra, ValuesThatAreNotFinite) {
+    DenseChannel::Matrix matrix = DenseChannel::Matrix::Constant(100, 100, 0.005);
+    matrix(7, 3) = std::numeric_limits<double>::quiet_NaN();
+    for (const Eigen::Index n : {20, 100}) {
+        const DenseChannel K(matrix.topLeftCorner(n, n), Vector::Ones(n));
+        const Eigenpairs found = leading_eigenpairs(K, 2);
+        EXPECT_FALSE(found.converged);
+        EXPECT_TRUE(std::isnan(found.radius()));
+        EXPECT_TRUE(found.why.ends_with("too few to say more: K has values that are not finite")) << found.why;
+        EXPECT_TRUE(std::isnan(operator_norms(K).two));
+    }
 }
 
 TEST(Spectra, DefectsAreSeen) {

@@ -130,7 +130,7 @@ TEST(Verdicts, WhereNeighboursAlternateTheSumStandsIn) {
     EXPECT_EQ(ratio.applications, series.applications);
     EXPECT_EQ(ratio.x, series.x);
     EXPECT_EQ(ratio.why,
-              "the plain sum, its tail estimated from the rate 0.909; extrapolated: the ratio of terms is inf: they do not "
+              "the plain sum, its tail bounded, at the rate 0.909; extrapolated: the ratio of terms is inf: they do not "
               "fall by one ratio below 1");
 }
 

@@ -175,7 +175,8 @@ def solve(
     """L = Le + K L by one of SOLVERS, or by several of them, or by "all".
 
     K: (n, n), of scipy.sparse or dense, or the K of ``scene.operators()``. Le: (n,). error: estimated, relative to ‖L‖∞, that ends a solver. most: applications of K.
-    radius: spectral radius of K or a bound on it, which turns residuals into errors, and which chebyshev needs. lowest: the lowest
+    radius: spectral radius of K or a bound on it, which chebyshev needs, and which turns residuals into errors where ‖(I − K)⁻¹‖∞, for
+    K ≥ 0, is not bounded by a few applications. lowest: the lowest
     eigenvalue where all are real; −radius without it. reflectance: (n,), ρ where K = diag(ρ) F with F reciprocal, for cg. exact: (n,), L
     where it is known, to see true errors. measure: (n,), of each unknown; 1 without it.
 

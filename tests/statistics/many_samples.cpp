@@ -1,0 +1,47 @@
+// More samples make no picture worse: eight million samples of a pixel are added up as exactly as a few.
+#include "operators/known/scene_maker.h"
+#include "operators/pictures/field_rendering.h"
+
+#include <gtest/gtest.h>
+
+namespace neumann::many_samples_test {
+
+using namespace known;
+
+// A closed ball of albedo 0.7 that shines with radiance 1, seen from within: bounce i is 0.7^i everywhere.
+constexpr double albedo = 0.7;
+Scene furnace() {
+    SceneMaker maker;
+    maker.add(Sphere{{0, 0, 0}, 1.0, true}, glowing(albedo, 1.0));
+    maker.parts.camera.near_clip = 1e-3;
+    Film& film = maker.parts.film;
+    film.width = film.crop_width = film.height = film.crop_height = 1;
+    film.filter = BoxFilter();
+    return maker.make();
+}
+
+// Fields on patches are floats, but what pixels read of them is added up in doubles.
+TEST(ManySamplesSlow, OfFields) {
+    const Scene scene = furnace();
+    for (const FieldReading reading : {FieldReading::patches, FieldReading::matrix, FieldReading::gather}) {
+        FieldSettings settings;
+        settings.reading = reading;
+        settings.bounces = 2;
+        settings.patching.patches = 60;
+        settings.rays = 16;
+        settings.replicates = 2;
+        settings.rest = false;
+        settings.gather_rays = 1;
+        settings.samples = reading == FieldReading::gather ? 1u << 21 : 1u << 22;
+        const FieldPictures found = *render_fields(scene, settings);
+        for (std::size_t i = 0; i <= 2; ++i) {
+            const double exact = std::pow(albedo, static_cast<double>(i));
+            const MeanWithError mean = found.mean_of_term(i);
+            // Bounce 1 asks lights at points of its own: one sample in two of them is 1/√n of it off.
+            const double noise = i == 1 && reading != FieldReading::patches ? 4.5 * mean.standard_error + 2e-3 : 0.0;
+            EXPECT_NEAR(mean.mean, exact, (noise + 3e-7) * exact) << static_cast<int>(reading) << ", bounce " << i;
+        }
+    }
+}
+
+}  // namespace neumann::many_samples_test
