@@ -33,7 +33,7 @@ std::vector<std::string> choose_methods(RandomNumbers& random) {
     some("mixed", 0.02);
     some("photon", 0.3);
     some("photon:gather=true", 0.15);
-    some("cache", 0.1);
+    some("cache:accuracy=0.4:directions=64", 0.1);  // a pass takes as long for a small picture as for a large one
     some("metropolis", 0.3);
     some("classic", 0.1);
     some("pointwise", 0.2);
