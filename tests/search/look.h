@@ -20,7 +20,7 @@ struct Look {
 // The method with its numbers of patches and directions, where it has them: a word of read_method().
 std::string as_looked_at(const std::string& method, const Look& look);
 // The command that renders the same.
-std::string command(const std::string& scene, const std::string& method, const Look& look);
+std::string command(const std::string& scene, const Film& film, const std::string& method, const Look& look);
 
 // `pilot`: one for all methods. Throws as render() does.
 Measured look_at(const Scene& scene, const Pilot& pilot, const std::string& method, const Look& look);

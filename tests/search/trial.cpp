@@ -19,8 +19,9 @@ namespace neumann::search {
 
 namespace {
 
-// Of right values that are normal, as two of 10⁵ pairs are at the first look and, independently, four of 10⁸ at each other.
-constexpr double suspicious = 1e-5, certain = 4e-8;  // the latter is 5.5 standard errors
+// As unlikely as this a difference has to be, look by look, to be looked at again and in the end to be told; the last is that
+// of 5.5 standard errors.
+constexpr std::array<double, looks> unlikely{1e-4, 1e-6, 4e-8};
 // What is missing of rare paths comes with more samples; what is wrong stays.
 constexpr double part_that_stays = 0.5;
 constexpr std::array<unsigned, looks> seconds_of_method{60, 180, 300};
@@ -33,6 +34,7 @@ public:
         limit_time(seconds_of_method.front());
         words_.say(R"({"begin": ""})");
         const Scene scene = read_scene(trial_.scene);
+        film_ = scene.film;
         pilot_.emplace(scene, DirectLightSettings{}, trial_.seed);
         for (const std::string& method : trial_.methods) see(scene, method, trial_.first_look);
         std::vector<Pair> pairs = differing();
@@ -40,15 +42,15 @@ public:
             const Pair pair = most_doubtful(pairs);
             const bool is_wrong = stays(scene, pair);
             if (is_wrong) tell(scene, pair);
-            std::erase_if(pairs, [&](const Pair& p) { return (p.method == pair.method && (is_wrong || p.other == pair.other)); });
             // A method that is wrong accuses all others.
-            if (is_wrong) std::erase_if(pairs, [&](const Pair& p) { return p.other == pair.method; });
+            std::erase_if(pairs, [&](const Pair& p) { return p.has(pair.method) && (is_wrong || p.has(pair.other)); });
         }
     }
 
 private:
     struct Pair {
         std::string method, other;
+        bool has(const std::string& m) const { return method == m || other == m; }
     };
 
     Look look_of(const std::string& method, std::size_t look) const {
@@ -63,7 +65,7 @@ private:
         say({{"kind", static_cast<int>(kind)}, {"method", method}, {"other", other}, {"what", what}});
     }
     std::string command_of(const std::string& method, std::size_t look) const {
-        return command(trial_.scene.filename(), method, look_of(method, look));
+        return command(trial_.scene.filename(), film_, method, look_of(method, look));
     }
 
     // Null if the method does not take the scene.
@@ -91,13 +93,12 @@ private:
 
     std::vector<Pair> differing() const {
         std::vector<Pair> pairs;
-        const double limit = trial_.first_look == 0 ? suspicious : certain;
         for (const std::string& method : trial_.methods)
             for (const std::string& other : trial_.methods) {
                 if (method == other) break;
                 const auto a = seen_.find({method, trial_.first_look}), b = seen_.find({other, trial_.first_look});
                 if (a == seen_.end() || b == seen_.end()) continue;
-                if (compare(a->second, b->second).probability < limit) pairs.push_back({method, other});
+                if (compare(a->second, b->second).probability < unlikely[trial_.first_look]) pairs.push_back({method, other});
             }
         return pairs;
     }
@@ -107,14 +108,11 @@ private:
         Pair found;
         std::ptrdiff_t most = 0;
         for (const std::string& method : trial_.methods) {
-            const auto in = [&](const Pair& p) { return p.method == method || p.other == method; };
-            const std::ptrdiff_t count = std::ranges::count_if(pairs, in);
+            const std::ptrdiff_t count = std::ranges::count_if(pairs, [&](const Pair& p) { return p.has(method); });
             if (count < most || count == 0) continue;
             most = count;
             for (const std::string& other : trial_.methods)
-                if (std::ranges::any_of(pairs, [&](const Pair& p) {
-                        return in(p) && other != method && (p.method == other || p.other == other);
-                    })) {
+                if (other != method && std::ranges::any_of(pairs, [&](const Pair& p) { return p.has(method) && p.has(other); })) {
                     found = {method, other};
                     break;
                 }
@@ -129,7 +127,7 @@ private:
             const Measured *a = see(scene, pair.method, look), *b = see(scene, pair.other, look);
             if (!a || !b) return false;
             const Difference d = compare(*a, *b);
-            if (d.probability >= (look == 0 ? suspicious : certain)) return false;
+            if (d.probability >= unlikely[look]) return false;
             if (look == 0) continue;
             const auto value = [&](const Measured* m) { return m->bounces[d.bounce][d.part].mean.mean; };
             const double now = value(a) - value(b);
@@ -162,6 +160,7 @@ private:
 
     const Trial& trial_;
     Words& words_;
+    Film film_;
     std::optional<Pilot> pilot_;
     std::map<std::pair<std::string, std::size_t>, Measured> seen_;
 };

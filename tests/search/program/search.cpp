@@ -5,11 +5,11 @@
 //     search scene.xml --method walk --method matrix
 //
 // The number of a scene makes it and all its samples: the same scenes and the same verdicts everywhere. What differs is looked at
-// three times, with 256, 8192 and 32,768 samples a pixel and other seeds: where both methods are right, and normal, one pair in a
-// hundred thousand goes on to the second look, and four in a hundred million pass each of the next two. Some 45 pairs of methods
-// with 32 values each make that one scene in seventy that is looked at again, and no false alarm in ten thousand scenes to be
-// expected. Means of rare paths are not normal: what a method misses of them it does not know of, and such an alarm is to be
-// looked at by somebody. The exit code is 1 if a scene fails that --known does not list, or one that it lists does not.
+// three times, with other seeds and 4096, 131,072 and 524,288 samples of all pixels. Where both methods are right, and their means
+// normal, one value in ten thousand goes on to the second look, one in a million passes that, and four in a hundred million the
+// last: no false alarm is to be expected in ten thousand scenes. Means of rare paths are not normal: of what a method has not met
+// it does not know, and such an alarm is to be looked at by somebody. The exit code is 1 if a scene fails that --known does not
+// list, or one that it lists does not.
 #include "tests/search/random_scene.h"
 #include "tests/search/shrink.h"
 #include "tests/search/trial.h"
@@ -80,8 +80,9 @@ private:
                  bool reading) {
         std::vector<std::string> all = methods;
         if (all.empty())
-            all = {"walk",   "bidirectional", "corrected", "guided", "light",      "matrix",
-                   "gather", "patches",       "photon",    "cache",  "metropolis", "pointwise"};
+            all = {"walk",       "bidirectional", "corrected", "guided", "light",
+                   "matrix",     "gather",        "patches",   "photon", "cache:accuracy=0.4:directions=64",
+                   "metropolis", "pointwise"};
         const Verdict verdict = try_scene({.scene = path, .methods = all, .seed = seed, .thorough = is_thorough(seed)});
         ++scenes_;
         seconds_ += verdict.seconds;
