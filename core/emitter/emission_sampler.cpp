@@ -15,7 +15,7 @@ EmissionSampler::EmissionSampler(const Geometry& geometry, const Emitters& emitt
     // 1/A for the point times |cosθ|/π for the direction; d²/|cosθ| to the solid angle at x times 1/d² to the area at x: 1/(π A).
     for (std::uint32_t shape = 0; shape < geometry.shapes().size(); ++shape) {
         const double power = emitters.powers()[shape];
-        density_of_shape_.push_back(power > 0.0 ? power / all / geometry.area(shape) * inv_pi : 0.0);
+        density_of_shape_.push_back(power > 0.0 ? power / all / emitters.area(shape) * inv_pi : 0.0);
     }
 }
 

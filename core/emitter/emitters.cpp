@@ -11,14 +11,16 @@ Emitters::Emitters(const Geometry& geometry, Lights lights)
     : lights_(std::move(lights)),
       shapes_(geometry.shared_shapes()),
       surroundings_{geometry.center(), geometry.radius()},
-      powers_(lights_.of_shape.size(), 0.0) {
+      powers_(lights_.of_shape.size(), 0.0),
+      areas_(lights_.of_shape.size(), 0.0) {
+    for (std::uint32_t shape = 0; shape < lights_.of_shape.size(); ++shape)
+        if (lights_.of_shape[shape] != none) areas_[shape] = geometry.area(shape);
     divide_lights(geometry);
     for (std::uint32_t shape = 0; shape < lights_.of_shape.size(); ++shape) {
         if (lights_.of_shape[shape] == none) continue;
-        const double area = geometry.area(shape);
-        without_area_ += area == 0.0;
+        without_area_ += areas_[shape] == 0.0;
         const Rgb& radiance = lights_.area[static_cast<std::size_t>(lights_.of_shape[shape])].largest;
-        powers_[shape] = mean_component(radiance) * area;
+        powers_[shape] = mean_component(radiance) * areas_[shape];
         if (powers_[shape] > 0.0) largest_radiance_ = glm::max(largest_radiance_, radiance);
     }
     if (lights_.environment) {
@@ -36,7 +38,7 @@ void Emitters::divide_lights(const Geometry& geometry) {
     for (std::uint32_t shape = 0; shape < lights_.of_shape.size(); ++shape) {
         if (lights_.of_shape[shape] == none) continue;
         const AreaLight& light = lights_.area[static_cast<std::size_t>(lights_.of_shape[shape])];
-        if (light.along_normal && geometry.area(shape) > 0.0) lights_.delta.emplace_back(DirectionalArea(geometry, shape, light));
+        if (light.along_normal && areas_[shape] > 0.0) lights_.delta.emplace_back(DirectionalArea(geometry, shape, light));
     }
     for (AreaLight& light : lights_.area)
         if (light.along_normal) light = Rgb(0.0);

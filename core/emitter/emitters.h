@@ -70,6 +70,8 @@ public:
     // Power divided by π, computed with the largest radiance: of each shape, then of the distant lights, which are the environment
     // (if there is one) and the lights without extent. For an environment, the power that enters the sphere around the scene.
     const std::vector<double>& powers() const { return powers_; }
+    // Of an emitting shape: kept, because adding it up takes as long as the shape has triangles.
+    double area(std::uint32_t shape) const { return areas_[shape]; }
     // `index`: of a distant light.
     DistantSample sample_distant(std::size_t index, const Vec3& x, const Vec2& uv) const;
     DistantEmission send_distant(std::size_t index, const Vec2& place, const Vec2& direction) const;
@@ -98,7 +100,7 @@ private:
     Lights lights_;
     std::shared_ptr<const std::vector<Shape>> shapes_;
     Surroundings surroundings_;
-    std::vector<double> powers_;
+    std::vector<double> powers_, areas_;
     Rgb largest_radiance_{0.0};
     std::size_t without_area_ = 0;
 };

@@ -58,7 +58,7 @@ LightSampler::LightSampler(const Geometry& geometry, const Emitters& emitters, L
     }
     for (std::uint32_t shape = 0; shape < geometry.shapes().size(); ++shape)
         density_of_shape_.push_back(share[shape] == 0.0 ? 0.0
-                                                        : (choice == LightChoice::all ? 1.0 : share[shape]) / geometry.area(shape));
+                                                        : (choice == LightChoice::all ? 1.0 : share[shape]) / emitters.area(shape));
 }
 
 LightSample LightSampler::on_distant(std::size_t index, double probability, const Vec3& x, const Vec2& uv) const {
@@ -233,7 +233,7 @@ std::optional<ProjectedPolygon> LightSampler::projected(const Part& part, const 
 
 // For round shapes this is an estimate, positive wherever they may be seen.
 double LightSampler::contribution(const Part& part, const Vec3& x) const {
-    const double radiance = emitters_->powers()[part.shape] / geometry_->area(part.shape);
+    const double radiance = emitters_->powers()[part.shape] / emitters_->area(part.shape);
     return std::visit(
         [&](const auto& shape) {
             if constexpr (std::is_same_v<decltype(shape), const TriangleMesh&>) {

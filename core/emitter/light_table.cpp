@@ -26,7 +26,7 @@ LightTable::LightTable(const Geometry& geometry, const Emitters& emitters, const
             }
             if (const double a = area(part); a > 0.0) {
                 parts_.push_back(part);
-                add(share[shape] / geometry.area(shape) * a);
+                add(share[shape] / emitters.area(shape) * a);
             }
         }
         lights_.push_back({first, cumulative_.size()});

@@ -1,5 +1,5 @@
-// The two versions of Embree's interface that neumann is built with, as one: a query, the faces that it does not look for, and the
-// calls that trace it.
+// The two versions of Embree's interface that neumann is built with, as one: a query, the faces that it does not look for or passes
+// through, and the calls that trace it.
 #pragma once
 
 #include "core/geometry/face.h"
@@ -13,10 +13,12 @@
 
 #include <algorithm>
 #include <span>
+#include <vector>
 
 namespace neumann::embree {
 
-// The query context, with Embree's part first: the faces to skip, sorted.
+// The query context, with Embree's part first: the faces to skip, sorted; and where those go that the ray passes through, of which
+// it passes through so many at most.
 #if RTC_VERSION_MAJOR >= 4
 using EmbreeContext = RTCRayQueryContext;
 inline void init(EmbreeContext& context) { rtcInitRayQueryContext(&context); }
@@ -26,10 +28,20 @@ inline void init(EmbreeContext& context) { rtcInitIntersectContext(&context); }
 #endif
 struct Query : EmbreeContext {
     std::span<const Face> without;
+    std::vector<Face>* passed = nullptr;
+    std::size_t most = 0;
 
     explicit Query(std::span<const Face> faces = {}) : without(faces) { init(*this); }
+    bool filters() const { return !without.empty() || passed; }
     bool leaves_out(std::uint32_t shape, std::uint32_t primitive) const {
         return !without.empty() && std::binary_search(without.begin(), without.end(), Face{shape, primitive});
+    }
+    // Whether the ray goes on behind the face, which it has hit.
+    bool passes(std::uint32_t shape, std::uint32_t primitive) const {
+        if (leaves_out(shape, primitive)) return true;
+        if (!passed) return false;
+        passed->push_back({shape, primitive});
+        return passed->size() < most;
     }
 };
 
@@ -43,7 +55,7 @@ inline void filter(const RTCFilterFunctionNArguments* args) {
     const unsigned N = args->N;
     for (unsigned i = 0; i < N; ++i) {
         const std::uint32_t shape = shape_of(RTCHitN_instID(args->hit, N, i, 0), RTCHitN_geomID(args->hit, N, i));
-        if (args->valid[i] && query->leaves_out(shape, RTCHitN_primID(args->hit, N, i))) args->valid[i] = 0;
+        if (args->valid[i] && query->passes(shape, RTCHitN_primID(args->hit, N, i))) args->valid[i] = 0;
     }
 }
 
@@ -53,7 +65,7 @@ template <class Arguments>
 inline void ask(Query& query, RayCaster::Rays kind, Arguments& arguments) {
     arguments.context = &query;
     arguments.flags = kind == RayCaster::Rays::alike ? RTC_RAY_QUERY_FLAG_COHERENT : RTC_RAY_QUERY_FLAG_INCOHERENT;
-    if (query.without.empty()) return;
+    if (!query.filters()) return;
     arguments.filter = filter;
     arguments.flags = static_cast<RTCRayQueryFlags>(arguments.flags | RTC_RAY_QUERY_FLAG_INVOKE_ARGUMENT_FILTER);
 }
@@ -91,7 +103,7 @@ inline void trace(const int* valid, RTCScene scene, RTCRay8& rays, RayCaster::Ra
 constexpr RTCSceneFlags filters_allowed = RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION;
 inline Query& prepared(Query& query, RayCaster::Rays kind = RayCaster::Rays::any) {
     if (kind == RayCaster::Rays::alike) query.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-    if (!query.without.empty()) query.filter = filter;
+    if (query.filters()) query.filter = filter;
     return query;
 }
 inline void trace(RTCScene scene, RTCRayHit& ray, Query query) { rtcIntersect1(scene, &prepared(query), &ray); }

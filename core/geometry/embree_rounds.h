@@ -104,11 +104,13 @@ inline void intersect_callback(const RTCIntersectFunctionNArguments* args) {
 
 template <class Data>
 inline void occluded_callback(const RTCOccludedFunctionNArguments* args) {
-    if (static_cast<const Query*>(args->context)->leaves_out(args->geomID, args->primID)) return;
+    const auto* query = static_cast<const Query*>(args->context);
+    if (query->leaves_out(args->geomID, args->primID)) return;
     const unsigned N = args->N;
     for (unsigned i = 0; i < N; ++i)
         if (args->valid[i] &&
-            !std::isnan(static_cast<const Data*>(args->geometryUserPtr)->intersect(rtcGetRayFromRayN(args->ray, N, i))))
+            !std::isnan(static_cast<const Data*>(args->geometryUserPtr)->intersect(rtcGetRayFromRayN(args->ray, N, i))) &&
+            !query->passes(args->geomID, args->primID))
             RTCRayN_tfar(args->ray, N, i) = -infinity;
 }
 

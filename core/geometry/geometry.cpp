@@ -138,19 +138,19 @@ bool Geometry::settle(const RayStart& start, const Vec3& direction, SurfacePoint
     return true;
 }
 
+SurfacePoint Geometry::bare_point_on(const Face& face, const Vec3& position) const {
+    if (const TriangleOfFace t = neighbours_->faces().triangle(face)) return on_triangle(*t, face.shape, face.primitive, position);
+    return round_point(face, put_on_round((*shapes_)[face.shape], position, error_[face.shape]));
+}
+
 SurfacePoint Geometry::point_on(const Face& face, const StartedRay& ray, double distance) const {
-    const Vec3 position = ray.start.position + ray.direction * distance;
-    SurfacePoint p;
-    if (const TriangleOfFace t = neighbours_->faces().triangle(face))
-        p = on_triangle(*t, face.shape, face.primitive, position);
-    else
-        p = round_point(face, put_on_round((*shapes_)[face.shape], position, error_[face.shape]));
+    SurfacePoint p = bare_point_on(face, ray.start.position + ray.direction * distance);
     look_around(p, &ray);
     return p;
 }
 
 SurfacePoint Geometry::point_on_instance(const Face& face, const Vec3& position) const {
-    SurfacePoint p = on_triangle(*neighbours_->faces().triangle(face), face.shape, face.primitive, position);
+    SurfacePoint p = bare_point_on(face, position);
     look_around(p);
     return p;
 }
@@ -291,16 +291,37 @@ double Geometry::area(std::uint32_t shape) const {
     return sum;
 }
 
-SurfacePoint Geometry::point_off_meshes(std::uint32_t shape, std::uint32_t primitive, const Vec2& uv) const {
-    SurfacePoint p;
+SurfacePoint Geometry::bare_point(const Place& place, const Vec2& uv) const {
+    const auto [shape, primitive, triangle, edges] = place;
     if (const TriangleOfFace t = neighbours_->faces().triangle({shape, primitive})) {
         const Vec2 weights = uniform_triangle(uv);
-        p = {t->at(weights.x, weights.y, edges(shape, primitive)), t->normal(), t->error(), shape, primitive};
-    } else {
-        p = round_point({shape, 0}, sample_round((*shapes_)[shape], uv, error_[shape]));
+        return {t->at(weights.x, weights.y, triangle ? edges : this->edges(shape, primitive)), t->normal(), t->error(), shape,
+                primitive};
     }
+    return round_point({shape, 0}, sample_round((*shapes_)[shape], uv, error_[shape]));
+}
+
+SurfacePoint Geometry::point_off_meshes(std::uint32_t shape, std::uint32_t primitive, const Vec2& uv) const {
+    SurfacePoint p = bare_point({shape, primitive, nullptr, {}}, uv);
     look_around(p);
     return p;
+}
+
+SurfacePoint Geometry::seen_in_place_of(const SurfacePoint& p, double errors) const {
+    constexpr std::size_t compared = 16;
+    const Face own{p.shape, p.primitive};
+    const double near = errors * p.error, length = 2.0 * near;
+    const Vec3 from = p.position + p.normal * near;
+    std::vector<Face> faces;
+    if (neighbours_->giants().near_rest(from, -p.normal, length))
+        caster_->append_between(from, from - p.normal * length, {&own, 1}, compared, faces);
+    for (const Face& giant : giants_)
+        if (giant != own && neighbours_->faces().is_near(giant, p.position, near)) faces.push_back(giant);
+    if (faces.empty()) return p;
+    faces.push_back(own);
+    std::sort(faces.begin(), faces.end());
+    const auto first = neighbours_->first(faces, from, -p.normal);
+    return first && first->distance < length ? bare_point_on(first->face, from - p.normal * first->distance) : p;
 }
 
 Vec2 Geometry::round_coordinates(std::uint32_t shape, const Vec3& position) const {

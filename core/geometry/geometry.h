@@ -144,6 +144,13 @@ public:
         return p;
     }
 
+    // Such a point, of which it is not found out whether it is close.
+    SurfacePoint bare_point(const Place& place, const Vec2& uv) const;
+    // What a ray along the normal back to such a point meets first, where it starts so many of the point's errors in front of it
+    // and ends as far behind: the point, or a bare point of a face that lies in the same place. Of a heap of faces a few are
+    // compared, whatever its size.
+    SurfacePoint seen_in_place_of(const SurfacePoint& p, double errors) const;
+
     // Moves a point near the plane of a triangle onto the triangle.
     SurfacePoint point_on_triangle(std::uint32_t shape, std::uint32_t primitive, const Vec3& position) const {
         if (triangles_[shape].empty()) return point_on_instance({shape, primitive}, position);
@@ -202,6 +209,7 @@ private:
     // After that: the first hit, with the close faces in double and all others by Embree, whose ray starts at `embree_start`.
     bool first_hit_past(const RayStart& start, const Vec3& embree_start, const Vec3& direction, double distance,
                         std::vector<Face> faces, SurfacePoint& hit) const;
+    SurfacePoint bare_point_on(const Face& face, const Vec3& position) const;
     SurfacePoint point_on(const Face& face, const StartedRay& ray, double distance) const;
     SurfacePoint point_on_instance(const Face& face, const Vec3& position) const;
     // Intersects the faces around close points, and giants, in double, and all others with Embree.

@@ -19,6 +19,8 @@ constexpr std::size_t largest_asked_one_by_one = 16;
 // at a wall, it is close to few points of such a strip.
 constexpr double along_edges = 1.0 / 64.0, along_edges_of_small = 1.0 / 4096.0, small = 1.0 / 16.0;
 constexpr double reach_in_errors = 64.0;
+// With more faces around it than this, a face is in a crowd. In a mesh of even triangles there are about thirty.
+constexpr std::size_t crowd = 256;
 
 // The number of cells along an edge: few enough that they need no more memory than the boxes, but at least 64.
 int cells_for(std::size_t boxes) {
@@ -84,7 +86,11 @@ double Neighbours::reach(const Face& a, const Face& b) const {
 // Appends all faces closer to p than `distance`, or within their reach of a face whose error is at most distance / reach_in_errors.
 void Neighbours::append_near(const Vec3& p, double distance, std::vector<Face>& found) const {
     found.insert(found.end(), large_.begin(), large_.end());
-    if (error_of_rest_ > 0.0) caster_->near(p, distance + reach_in_errors * error_of_rest_, found);
+    if (error_of_rest_ > 0.0)
+        caster_->any_near(p, distance + reach_in_errors * error_of_rest_, [&](const Face& f) {
+            found.push_back(f);
+            return false;
+        });
     std::sort(found.begin(), found.end());
     found.erase(std::unique(found.begin(), found.end()), found.end());
 }
@@ -129,10 +135,10 @@ bool Neighbours::has_near(const SurfacePoint& p, double aside) const {
                        [&](const auto& entry) { return faces_.is_near(entry.second.face, p.position, entry.second.near + aside); });
 }
 
-bool Neighbours::is_clear_round(const Face& f) const {
+Neighbours::State Neighbours::state_of_round(const Face& f) const {
     const std::atomic_ref state(round_[f.shape]);
     if (state.load(std::memory_order_acquire) == State::unknown) examine(f);
-    return state.load(std::memory_order_acquire) == State::clear;
+    return state.load(std::memory_order_acquire);
 }
 
 double Neighbours::reach_of_close_points(const Face& f, const Face& other) const {
@@ -147,17 +153,17 @@ double Neighbours::reach_of_close_points(const Face& f, const Face& other) const
 bool Neighbours::is_near_other(const SurfacePoint& p, double aside) const {
     const Face f{p.shape, p.primitive};
     const double size = faces_.size(f);
-    std::vector<Face> others = large_;
-    if (error_of_rest_ > 0.0) caster_->near(p.position, reach(p.error + error_of_rest_, size) + aside, others);
     // First by the box of the other face: most are not that near.
-    return std::any_of(others.begin(), others.end(), [&](const Face& other) {
+    const auto is_near = [&](const Face& other) {
         if (other == f) return false;
         const Bounds bounds = faces_.bounds(other);
         const double most = reach(p.error + faces_.error(other), std::min(size, 2.0 * bounds.radius())) + aside;
         if (!holds(bounds.grown(most), p.position) || !faces_.is_near(other, p.position, most)) return false;
         const double reach = reach_of_close_points(f, other);
         return reach > 0.0 && faces_.is_near(other, p.position, reach + aside);
-    });
+    };
+    return std::any_of(large_.begin(), large_.end(), is_near) ||
+           (error_of_rest_ > 0.0 && caster_->any_near(p.position, reach(p.error + error_of_rest_, size) + aside, is_near));
 }
 
 bool Neighbours::is_close(const SurfacePoint& p) const {
@@ -166,37 +172,65 @@ bool Neighbours::is_close(const SurfacePoint& p) const {
     if (const TriangleOfFace t = faces_.triangle(f)) {
         const Vec2 w = t->weights(p.position);
         if (!t->is_examined()) examine(f);
+        if (t->is_crowded()) return is_near_other(p, 0.0);
         if (t->is_clear(w)) return false;
         if (t->is_near_edge(w)) return around(p).size() > 1;
-    } else if (is_clear_round(f)) {
-        return false;
+    } else if (const State state = state_of_round(f); state != State::not_clear) {
+        return state == State::crowded && is_near_other(p, 0.0);
     }
     return has_near(p, 0.0);
 }
 
 bool Neighbours::may_hide(const SurfacePoint& p, double cosine) const {
     const Face f{p.shape, p.primitive};
-    if (keeps_nothing_) return std::abs(cosine) < Triangle::grazing || is_near_other(p, largest_error_ / std::abs(cosine));
+    const bool grazes = std::abs(cosine) < Triangle::grazing;
+    const double aside = largest_error_ / std::abs(cosine);
+    if (keeps_nothing_) return grazes || is_near_other(p, aside);
     if (const TriangleOfFace t = faces_.triangle(f)) {
+        if (t->is_crowded()) return grazes || is_near_other(p, aside);
         const Vec2 w = t->weights(p.position);
         if (t->is_clear(w, cosine)) return false;
         if (t->is_near_edge(w, cosine)) return true;
-    } else if (is_clear_round(f)) {
-        return false;
+    } else if (const State state = state_of_round(f); state != State::not_clear) {
+        return state == State::crowded && (grazes || is_near_other(p, aside));
     }
-    return std::abs(cosine) < Triangle::grazing || has_near(p, largest_error_ / std::abs(cosine));
+    return grazes || has_near(p, aside);
+}
+
+std::optional<std::vector<Face>> Neighbours::others_around(const Face& f) const {
+    const Bounds bounds = faces_.bounds(f);
+    const Vec3 center = bounds.center();
+    const double distance =
+        bounds.radius() + reach_in_errors * (faces_.error(f) + error_of_rest_) + largest_error_ / Triangle::grazing;
+    std::vector<Face> others = large_;
+    if (error_of_rest_ > 0.0 && caster_->any_near(center, distance, [&](const Face& other) {
+            const Bounds of_other = faces_.bounds(other);
+            const Vec3 nearest = glm::clamp(center, of_other.low, of_other.high);
+            if (glm::length(nearest - center) <= distance) others.push_back(other);
+            return others.size() - large_.size() > crowd;
+        }))
+        return std::nullopt;
+    std::sort(others.begin(), others.end());
+    others.erase(std::unique(others.begin(), others.end()), others.end());
+    return others;
 }
 
 void Neighbours::examine(const Face& f) const {
+    const auto others = others_around(f);
+    if (!others) {
+        if (const TriangleOfFace t = faces_.triangle(f))
+            t->set_crowded();
+        else
+            std::atomic_ref(round_[f.shape]).store(State::crowded, std::memory_order_release);
+        return;
+    }
     const Bounds bounds = faces_.bounds(f);
     const double error = faces_.error(f), aside = largest_error_ / Triangle::grazing;
-    std::vector<Face> others;
-    append_near(bounds.center(), bounds.radius() + reach_in_errors * error + aside, others);
     const auto is_small = [&](const Face& other) { return faces_.size(other) < small * faces_.size(f); };
     double strip = 0.0, corner = 0.0;
     std::vector<std::pair<Box, Other>> boxes;
     std::vector<std::vector<Vec2>> polygons;
-    for (const Face& other : others) {
+    for (const Face& other : *others) {
         if (other == f) continue;
         const double errors = error + faces_.error(other);
         if (intersection(bounds.grown(reach_in_errors * errors + aside), faces_.bounds(other)).is_empty()) continue;

@@ -5,8 +5,10 @@
 // point is *close* if another face is nearer than the sum of both errors: a ray could start behind that face, or end on the wrong
 // one of the two. It is also close if a face that does not touch its own is nearer than 64 times that, because a ray with an offset
 // origin sees past it what the point does not see. Which parts of a face are close is computed when the face is first hit, and
-// cached, unless there are instances; usually these are strips along edges, a millionth of the scene wide. Rays of close points are
-// intersected with the faces around them in double, and with all others by Embree.
+// cached; usually these are strips along edges, a millionth of the scene wide. Of a face with a crowd around it, and where there
+// are instances, nothing is cached, and what is near a point is looked for at each point: else a scene whose faces are long and
+// thin, or share a corner, would take time with the square of their number. Rays of close points are intersected with the faces
+// around them in double, and with all others by Embree.
 #pragma once
 
 #include "core/geometry/double_faces.h"
@@ -73,8 +75,10 @@ private:
     // Where nothing is cached: whether another face is that near, plus `aside`.
     bool is_near_other(const SurfacePoint& p, double aside) const;
     void examine(const Face& f) const;
-    // Whether the state of a round face is `clear`.
-    bool is_clear_round(const Face& f) const;
+    // The faces that may have close points on f; nothing if they are a crowd.
+    std::optional<std::vector<Face>> others_around(const Face& f) const;
+    enum class State : std::uint8_t { unknown, clear, not_clear, crowded };
+    State state_of_round(const Face& f) const;
     // Whether a face in the surroundings of p's face is within its `near` distance plus `aside`.
     bool has_near(const SurfacePoint& p, double aside) const;
     // first(), but for rays that pass an edge within rounding.
@@ -95,10 +99,8 @@ private:
         0;  // the largest error of the others
             // Scenes with instances may have a thousand times more faces than memory for them, all of them near a ground.
     bool keeps_nothing_ = false;
-    double largest_error_ = 0;  // the largest error of all faces: how far an origin of a ray may be displaced
-    // State of round faces, by shape. For triangles see Triangle::is_clear().
-    enum class State : std::uint8_t { unknown, clear, not_clear };
-    mutable std::vector<State> round_;
+    double largest_error_ = 0;          // the largest error of all faces: how far an origin of a ray may be displaced
+    mutable std::vector<State> round_;  // of round faces, by shape; for triangles see Triangle::is_clear()
     mutable oneapi::tbb::concurrent_map<Face, Surroundings> surroundings_;
 };
 

@@ -243,6 +243,18 @@ bool RayCaster::occluded(const Vec3& from, const Vec3& to, std::span<const Face>
     return ray.tfar < 0.0f;
 }
 
+void RayCaster::append_between(const Vec3& from, const Vec3& to, std::span<const Face> without, std::size_t most,
+                               std::vector<Face>& found) const {
+    if (found.size() >= most) return;
+    const Vec3 org = to_embree(from);
+    RTCRay ray;
+    set_ray(ray, org, to_embree(to) - org, 1.0f);
+    embree::Query query(without);
+    query.passed = &found;
+    query.most = most;
+    embree::trace(impl_->scene, ray, query);
+}
+
 void RayCaster::set_rays(const Packet& packet, RTCRay8& rays) {
     copy(packet.origin_[0], rays.org_x);
     copy(packet.origin_[1], rays.org_y);
@@ -282,7 +294,7 @@ std::uint32_t RayCaster::occluded(const Packet& packet, Rays kind) const {
     return found;
 }
 
-void RayCaster::near(const Vec3& p, double distance, std::vector<Face>& found) const {
+bool RayCaster::any_near(const Vec3& p, double distance, bool (*ask)(const void*, const Face&), const void* wanted) const {
     const Vec3 at = to_embree(p);
     // The radius covers the rounding of the boxes, of p to float, and of p in the coordinates of an instance.
     const double radius = distance * scale_ + 0x1p-22 * (1.0 + distance * scale_) * (1.0 + impl_->distortion);
@@ -290,15 +302,25 @@ void RayCaster::near(const Vec3& p, double distance, std::vector<Face>& found) c
                         std::nextafter(static_cast<float>(radius), infinity)};
     RTCPointQueryContext context;
     rtcInitPointQueryContext(&context);
+    struct Search {
+        bool (*ask)(const void*, const Face&);
+        const void* wanted;
+        bool found;
+    } search{ask, wanted, false};
     rtcPointQuery(
         impl_->scene, &query, &context,
         [](RTCPointQueryFunctionArguments* args) {
+            auto& now = *static_cast<Search*>(args->userPtr);
+            if (now.found) return false;
             const RTCPointQueryContext& query_context = *args->context;
             const std::uint32_t shape = query_context.instStackSize > 0 ? query_context.instID[0] : args->geomID;
-            static_cast<std::vector<Face>*>(args->userPtr)->push_back({shape, args->primID});
-            return false;
+            now.found = now.ask(now.wanted, {shape, args->primID});
+            // Of a sphere of no size Embree visits no more boxes than those that hold the point.
+            if (now.found) args->query->radius = 0.0f;
+            return now.found;
         },
-        &found);
+        &search);
+    return search.found;
 }
 
 RTCSceneTy* RayCaster::embree_scene() const { return impl_->scene; }

@@ -45,8 +45,16 @@ public:
     bool intersect(const Vec3& origin, const Vec3& direction, double distance, std::span<const Face> without, Hit& hit) const;
     bool occluded(const Vec3& from, const Vec3& to, std::span<const Face> without) const;
 
-    // Appends all faces closer to p than `distance`, and possibly others.
-    void near(const Vec3& p, double distance, std::vector<Face>& found) const;
+    // Appends what lies between two points, without some faces, but not more than `most` faces in all.
+    void append_between(const Vec3& from, const Vec3& to, std::span<const Face> without, std::size_t most,
+                        std::vector<Face>& found) const;
+    // Whether is_wanted(face) is true of one of the faces closer to p than `distance`, and possibly of others. The search ends with
+    // the first.
+    template <class IsWanted>
+    bool any_near(const Vec3& p, double distance, const IsWanted& is_wanted) const {
+        const auto ask = [](const void* wanted, const Face& face) { return (*static_cast<const IsWanted*>(wanted))(face); };
+        return any_near(p, distance, ask, &is_wanted);
+    }
 
     // For benchmarks that call Embree directly.
     RTCSceneTy* embree_scene() const;
@@ -56,6 +64,7 @@ public:
 private:
     struct Impl;
     static void set_rays(const Packet& packet, RTCRay8& rays);
+    bool any_near(const Vec3& p, double distance, bool (*ask)(const void*, const Face&), const void* wanted) const;
     Vec3 center_;
     double scale_;
     std::unique_ptr<Impl> impl_;

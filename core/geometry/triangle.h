@@ -74,6 +74,9 @@ public:
                std::max(low, std::min(high, third)) * std::abs(cosine) < std::atomic_ref(corner_).load(std::memory_order_relaxed);
     }
     bool is_examined() const { return std::atomic_ref(strip_).load(std::memory_order_acquire) < unknown; }
+    // Whether so much is around that nothing is kept of where: no point is clear by itself.
+    bool is_crowded() const { return std::atomic_ref(strip_).load(std::memory_order_acquire) == everywhere; }
+    void set_crowded() const { set_close(everywhere, everywhere, nullptr); }
     void set_close(float strip, float corner, const WeightCells* cells) const {
         std::atomic_ref(cells_).store(cells, std::memory_order_relaxed);
         std::atomic_ref(corner_).store(corner, std::memory_order_relaxed);
@@ -92,7 +95,7 @@ private:
     float rounding_;  // of Embree's hits, as a barycentric weight; 1 if the triangle is too thin to have a hit in double
     float margin_;  // hits keep this barycentric distance from the edges, so that doubles resolve on which side of an adjacent wall
                     // they are; 0 if the triangle is too thin for that
-    static constexpr float unknown = 2.0f;  // larger than any barycentric weight
+    static constexpr float everywhere = 1.0f, unknown = 2.0f;  // larger than any smallest barycentric weight
     mutable float strip_ = unknown, corner_ = 0.0f;
 };
 

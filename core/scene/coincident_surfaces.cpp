@@ -1,6 +1,7 @@
 #include "core/scene/coincident_surfaces.h"
 
 #include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/parallel_reduce.h>
 
 namespace neumann {
@@ -12,23 +13,33 @@ constexpr Vec2 places[] = {Vec2(0.5), Vec2(0.21, 0.34), Vec2(0.72, 0.13), Vec2(0
 constexpr double looks_from = 4.0;         // in errors of the point
 constexpr std::size_t many = 100'000;      // with more primitives, only one point of each is tested
 constexpr std::uint32_t of_instance = 64;  // about as many triangles of an instance are tested
+constexpr double boxes_at_once = 64.0;
 
-std::uint32_t step(const Shape& shape) {
-    const auto* instance = std::get_if<MeshInstance>(&shape);
-    return instance ? static_cast<std::uint32_t>(instance->mesh().triangles.size()) / of_instance + 1 : 1;
+double area_of_box(const Bounds& box) {
+    const Vec3 d = box.high - box.low;
+    return d.x * d.y + d.y * d.z + d.z * d.x;
 }
 
-// Whether nothing but the triangle itself is where the ray looks, by Embree alone: what else is close to each of the triangles of a
-// large scene takes long to find out, and most are by themselves.
-bool is_alone(const Geometry& geometry, const Geometry::Place& place, const Vec2& uv) {
-    if (!place.triangle || !geometry.giants().empty()) return false;
-    const Triangle& t = *place.triangle;
-    const Vec2 weights = uniform_triangle(uv);
-    const double near = looks_from * t.error();
-    const Vec3 from = t.at(weights.x, weights.y, place.edges) + t.normal() * near;
-    const Face own[] = {{place.shape, place.primitive}};
-    RayCaster::Hit hit;
-    return !geometry.caster().intersect(from, -t.normal(), 2.0 * near, own, hit);
+// How many boxes of triangles a ray through the mesh meets about, which is what it takes time for: a few in a smooth mesh; in a fan
+// of needles, or where all lie in one place, part of all there are.
+double boxes_met(const TriangleMesh& mesh) {
+    Bounds all;
+    double sum = 0.0;
+    for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
+        const Bounds box = corners_of(mesh, i).bounds();
+        all.add(box);
+        sum += area_of_box(box);
+    }
+    return mesh.triangles.empty() ? 0.0 : sum / area_of_box(all);
+}
+
+// Of a shape's faces each so manieth is looked at: all of them would take time with the square of their number, where rays meet
+// many.
+std::uint32_t step(const Shape& shape) {
+    if (const auto* instance = std::get_if<MeshInstance>(&shape))
+        return static_cast<std::uint32_t>(instance->mesh().triangles.size()) / of_instance + 1;
+    const auto* mesh = std::get_if<TriangleMesh>(&shape);
+    return mesh ? static_cast<std::uint32_t>(boxes_met(*mesh) / boxes_at_once) + 1 : 1;
 }
 
 // Of some faces of a shape: how many others cover, and the first such shape of another material that faces the same way.
@@ -42,14 +53,11 @@ void look_at(const Geometry& geometry, const Materials& materials, const Face& f
     const auto& [shape, primitive] = face;
     bool is_covered = false;
     for (std::size_t k = 0; k < looks; ++k) {
-        if (is_alone(geometry, geometry.place(shape, primitive), places[k])) continue;
-        const SurfacePoint point = geometry.point(shape, primitive, places[k]);
-        const double near = looks_from * point.error;
-        SurfacePoint seen;
-        if (!geometry.first_hit(point.position + point.normal * near, -point.normal, 2.0 * near, seen) || seen.shape == shape)
-            continue;
+        const SurfacePoint point = geometry.bare_point(geometry.place(shape, primitive), places[k]);
+        const SurfacePoint seen = geometry.seen_in_place_of(point, looks_from);
+        if (seen.shape == shape) continue;
         is_covered = true;
-                const bool is_unlike =
+        const bool is_unlike =
             glm::dot(seen.normal, point.normal) >= 0.999 && materials.at(shape, true) != materials.at(seen.shape, true);
         if (is_unlike && !covered.unlike) covered.unlike = seen.shape;
     }
@@ -61,7 +69,10 @@ void look_at(const Geometry& geometry, const Materials& materials, const Face& f
 CoincidentSurfaces coincident_surfaces(const Geometry& geometry, const Materials& materials,
                                        const std::vector<int>& light_of_shape) {
     const auto shapes = static_cast<std::uint32_t>(geometry.shapes().size());
-    const auto faces_of = [&](std::uint32_t shape) { return geometry.primitive_count(shape) / step(geometry.shapes()[shape]); };
+    std::vector<std::uint32_t> steps(shapes);
+    oneapi::tbb::parallel_for(std::uint32_t{0}, shapes,
+                              [&](std::uint32_t shape) { steps[shape] = step(geometry.shapes()[shape]); });
+    const auto faces_of = [&](std::uint32_t shape) { return geometry.primitive_count(shape) / steps[shape]; };
     std::size_t faces = 0;
     for (std::uint32_t shape = 0; shape < shapes; ++shape) faces += faces_of(shape);
     const std::size_t looks = faces > many ? 1 : std::size(places);
@@ -73,7 +84,7 @@ CoincidentSurfaces coincident_surfaces(const Geometry& geometry, const Materials
             Range(0, faces_of(shape), 1024), Covered(),
             [&](const Range& range, Covered sum) {
                 for (std::uint32_t i = range.begin(); i != range.end(); ++i)
-                    look_at(geometry, materials, {shape, i * step(geometry.shapes()[shape])}, looks, sum);
+                    look_at(geometry, materials, {shape, i * steps[shape]}, looks, sum);
                 return sum;
             },
             [](const Covered& first, const Covered& second) {
