@@ -15,6 +15,7 @@
 #include <csignal>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <limits>
 #include <memory>
 #include <new>
@@ -109,6 +110,12 @@ int main(int argc, char** argv) try {
 } catch (const neumann::InputError& e) {
     complain(e.what());
     return wrong_input;
+} catch (const std::filesystem::filesystem_error& e) {
+    complain(fmt::format("{}: {}", e.path1().string(), e.code().message()));
+    // Names that can be no file's; else something failed.
+    const bool is_name = e.code() == std::errc::too_many_symbolic_link_levels || e.code() == std::errc::filename_too_long ||
+                         e.code() == std::errc::permission_denied || e.code() == std::errc::not_a_directory;
+    return is_name ? wrong_input : failed_while_running;
 } catch (const std::bad_alloc&) {
     complain("neumann: not enough memory");
     return failed_while_running;

@@ -9,6 +9,7 @@ CLI::App* add_spectrum(CLI::App& app, SpectrumRequest& request) {
     auto* command =
         app.add_subcommand("spectrum", "Print norms and leading eigenvalues of K: whether the series converges, and how fast");
     add_patch_options(*command, request.patches);
+    command->add_option("--channel", request.channel, "r, g or b; default all that differ")->type_name("NAME");
     command->add_option("--eigenvalues", request.eigenvalues, "Number of leading eigenvalues")
         ->type_name("N")
         ->check(whole_from(1, 100))

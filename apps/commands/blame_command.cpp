@@ -5,6 +5,7 @@
 #include "apps/commands/parse_definitions.h"
 #include "apps/commands/print_warnings.h"
 #include "apps/files/blame_files.h"
+#include "apps/files/json_text.h"
 #include "apps/files/other_picture.h"
 #include "apps/pages/blame_page.h"
 #include "core/base/error.h"
@@ -129,7 +130,7 @@ void write_page(OutputFolder& folder, const Blame& found, const nlohmann::ordere
     const PackedSeries pictures = packed_pictures(found);
     if (pictures.factor() > 1) fmt::print(stderr, "note: {}\n", pictures.reduction());
     write_blame_pictures(folder, found);
-    folder.write("blame.json", json.dump(2) + "\n");
+    folder.write("blame.json", json_text(json, 2) + "\n");
     folder.write("index.html", blame_page(pictures, json));
     folder.commit();
 }
@@ -164,7 +165,7 @@ int blame_command(const BlameRequest& request) {
     const nlohmann::ordered_json json = json_of(found, scene, request);
     if (folder) write_page(*folder, found, json);
     if (request.json)
-        fmt::print("{}\n", json.dump(2));
+        fmt::print("{}\n", json_text(json, 2));
     else
         print(found, scene, request.output);
     return 0;

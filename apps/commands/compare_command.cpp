@@ -1,5 +1,6 @@
 #include "apps/commands/compare_command.h"
 
+#include "apps/files/json_text.h"
 #include "apps/files/output_folder.h"
 #include "apps/files/rendered_picture.h"
 #include "apps/pages/compare_page.h"
@@ -256,7 +257,7 @@ int compare_command(const CompareRequest& request) {
         write_compare_page(output, shown, figures);
     }
     if (json) {
-        fmt::print("{}\n", figures.dump(2));
+        fmt::print("{}\n", json_text(figures, 2));
     } else {
         print_table(a, b, comparison, !folders);
         if (!output.empty())

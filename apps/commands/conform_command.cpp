@@ -2,6 +2,7 @@
 
 #include "apps/commands/interrupt.h"
 #include "apps/commands/limits.h"
+#include "apps/files/json_text.h"
 #include "apps/files/output_folder.h"
 #include "core/base/error.h"
 #include "core/base/stopwatch.h"
@@ -197,7 +198,7 @@ int conform_command(const ConformRequest& request) {
     if (request.json) {
         nlohmann::ordered_json j = {{"scenes", nlohmann::ordered_json::array()}, {"of", scenes.size()}};
         for (const ConformResult& r : results) j["scenes"].push_back(json_of(r));
-        fmt::print("{}\n", j.dump(2));
+        fmt::print("{}\n", json_text(j, 2));
     } else {
         print_summary(results, scenes.size(), request);
     }

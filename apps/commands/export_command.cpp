@@ -3,6 +3,7 @@
 #include "apps/commands/interrupt.h"
 #include "apps/commands/limits.h"
 #include "apps/commands/print_warnings.h"
+#include "apps/files/json_text.h"
 #include "apps/files/matrix_market.h"
 #include "apps/files/output_folder.h"
 #include "core/base/error.h"
@@ -47,7 +48,7 @@ public:
     // `json` becomes run.json.
     void commit(nlohmann::ordered_json& json) {
         json["files"] = files_;
-        folder_.write("run.json", json.dump(2) + "\n");
+        folder_.write("run.json", json_text(json, 2) + "\n");
         if (interrupted()) throw RunError("interrupted; nothing was written");
         folder_.commit();
     }
@@ -147,7 +148,7 @@ int export_command(const ExportRequest& request) {
 
     print_warnings(warnings, request.patches.quiet);
     if (request.patches.json)
-        fmt::print("{}\n", json.dump(2));
+        fmt::print("{}\n", json_text(json, 2));
     else if (!request.patches.quiet)
         print_how_to_read(scene, request, output, files.lines());
     return 0;

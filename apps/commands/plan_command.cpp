@@ -2,6 +2,7 @@
 
 #include "apps/commands/parse_definitions.h"
 #include "apps/commands/print_warnings.h"
+#include "apps/files/json_text.h"
 #include "apps/files/plan_json.h"
 #include "core/reader/read_scene.h"
 #include "operators/methods/method_plan.h"
@@ -15,7 +16,7 @@ int plan_command(const PlanRequest& request) {
     const Plan plan = plan_with_bounces(scene);
     print_warnings(scene.replaced, false);
     if (request.json) {
-        fmt::print("{}\n", plan_json(plan).dump(2));
+        fmt::print("{}\n", json_text(plan_json(plan), 2));
         return 0;
     }
     for (const bool kept : {true, false}) {

@@ -7,6 +7,7 @@
 #include "apps/commands/preview.h"
 #include "apps/commands/print_rendering.h"
 #include "apps/commands/progress_line.h"
+#include "apps/files/json_text.h"
 #include "apps/files/recorded_run.h"
 #include "apps/files/reference.h"
 #include "apps/files/saved_render.h"
@@ -222,7 +223,7 @@ int render_command(const RenderRequest& given) {
     if (!why_no_paths.empty() && !request.quiet) fmt::print(stderr, "note: the page has no paths: {}\n", why_no_paths);
     if (request.json) {
         if (!request.quiet) print_problems(*rendering, warnings, request.output);
-        fmt::print("{}\n", json.dump(2));
+        fmt::print("{}\n", json_text(json, 2));
     } else if (!request.quiet) {
         print_rendering(*rendering, warnings, request.output);
     }

@@ -1,6 +1,7 @@
 #include "apps/commands/replay_command.h"
 
 #include "apps/files/health_json.h"
+#include "apps/files/json_text.h"
 #include "apps/files/recorded_run.h"
 #include "apps/files/replay_json.h"
 #include "core/base/error.h"
@@ -72,7 +73,7 @@ int replay_command(const ReplayRequest& request) {
         json["steps"] = Json::array();
         for (const ReplayedStep& s : found.steps) json["steps"].push_back(as_json(s, scene));
         if (unsound != found.steps.end()) json["first_step_that_is_not_finite"] = unsound - found.steps.begin();
-        fmt::print("{}\n", json.dump(2));
+        fmt::print("{}\n", json_text(json, 2));
         return 0;
     }
     fmt::print("Sample {} of pixel {},{} by {}{}\n\n", chosen.name.sample, pixel.x, pixel.y, method,

@@ -3,6 +3,7 @@
 #include "apps/commands/interrupt.h"
 #include "apps/commands/print_warnings.h"
 #include "apps/files/json_number.h"
+#include "apps/files/json_text.h"
 #include "apps/processes/together.h"
 #include "core/base/error.h"
 #include "operators/matrix/traced_system.h"
@@ -176,7 +177,7 @@ int solve_and_print(const SolveRequest& request, Processes* processes) {
     print_warnings(scene.warnings(), request.patches.quiet);
     print_warnings(solved.warnings, request.patches.quiet);
     if (request.patches.json)
-        fmt::print("{}\n", solve_json(scene, request, solved).dump(2));
+        fmt::print("{}\n", json_text(solve_json(scene, request, solved), 2));
     else if (request.csv)
         print_csv(solved.all);
     else

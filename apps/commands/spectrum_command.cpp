@@ -4,6 +4,7 @@
 #include "apps/commands/print_warnings.h"
 #include "apps/commands/progress_line.h"
 #include "apps/commands/spectrum_print.h"
+#include "apps/files/json_text.h"
 #include "apps/processes/together.h"
 #include "core/base/stopwatch.h"
 #include "operators/matrix/traced_system.h"
@@ -16,7 +17,8 @@ namespace neumann {
 SceneSpectrum spectrum_of(const PatchScene& scene, const SpectrumRequest& request,
                           const std::function<void(const std::function<std::string()>&)>& tell) {
     const Stopwatch clock;
-    SpectrumLimits limits{request.eigenvalues, request.seconds, static_cast<double>(request.most), {}};
+    SpectrumLimits limits{
+        request.eigenvalues, channel_number(request.channel), request.seconds, static_cast<double>(request.most), {}};
     if (dynamic_cast<const TracedSystem*>(&scene.system())) limits.petsc = request.petsc;
     limits.look = [&](const std::string& what, const EigenStep& step) {
         tell([&] {
@@ -34,6 +36,7 @@ namespace {
 
 int find_and_print(const SpectrumRequest& request, Processes* processes) {
     if (request.petsc) require_petsc();  // throws before anything is read
+    channel_number(request.channel);
     catch_interrupts();
     ProgressLine line(request.patches.quiet);
     line.show([] { return std::string("tracing T"); });
@@ -43,7 +46,7 @@ int find_and_print(const SpectrumRequest& request, Processes* processes) {
     line.clear();
     print_warnings(found.warnings, request.patches.quiet);
     if (request.patches.json)
-        fmt::print("{}\n", spectrum_json(scene, found).dump(2));
+        fmt::print("{}\n", json_text(spectrum_json(scene, found), 2));
     else if (request.csv)
         print_spectrum_csv(scene, found);
     else
@@ -53,8 +56,6 @@ int find_and_print(const SpectrumRequest& request, Processes* processes) {
 
 }  // namespace
 
-int spectrum_command(const SpectrumRequest& request) {
-    return run_by_all(request, find_and_print);
-}
+int spectrum_command(const SpectrumRequest& request) { return run_by_all(request, find_and_print); }
 
 }  // namespace neumann

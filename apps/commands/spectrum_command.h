@@ -12,6 +12,7 @@ namespace neumann {
 
 struct SpectrumRequest {
     PatchOptions patches;
+    std::string channel;  // r, g, b; empty: all
     int eigenvalues = 4;
     double seconds = 60.0;
     int most = 10000;  // largest number of applications of K in a search

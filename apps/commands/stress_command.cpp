@@ -2,6 +2,7 @@
 
 #include "apps/commands/interrupt.h"
 #include "apps/commands/limits.h"
+#include "apps/files/json_text.h"
 #include "apps/files/stress_files.h"
 #include "core/base/error.h"
 #include "core/base/stopwatch.h"
@@ -177,7 +178,7 @@ int stress_command(const StressRequest& request) {
         j["failed_figures"] = failures(outcomes);
         j["cases_not_reached"] = cases.size() - outcomes.size();
         j["seconds"] = watch.seconds();
-        fmt::print("{}\n", j.dump(2));
+        fmt::print("{}\n", json_text(j, 2));
     } else {
         print_summary(outcomes, cases.size(), watch.seconds());
     }

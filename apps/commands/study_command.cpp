@@ -4,6 +4,7 @@
 #include "apps/commands/limits.h"
 #include "apps/commands/parse_definitions.h"
 #include "apps/commands/study_runs.h"
+#include "apps/files/json_text.h"
 #include "apps/files/output_folder.h"
 #include "apps/processes/launch.h"
 #include "core/base/error.h"
@@ -274,7 +275,7 @@ StudyEnd run_study(StudyRequest request, const Scene& scene, double scene_second
             });
         const Json json = study_json(data, pictures);
         folder.write("study.csv", study_csv(data));
-        folder.write("study.json", json.dump(2) + "\n");
+        folder.write("study.json", json_text(json, 2) + "\n");
         folder.write("index.html", study_page(data, json));
         folder.commit();
         found(data, pictures, json);
@@ -304,7 +305,7 @@ int study_command(const StudyRequest& given) {
     const auto print = [&](const StudyData& data, const std::vector<StudiedPicture>& pictures, const Json& json) {
         status.reset();
         if (request.json)
-            fmt::print("{}\n", json.dump(2));
+            fmt::print("{}\n", json_text(json, 2));
         else if (!request.quiet)
             print_study(data, pictures);
     };

@@ -2,6 +2,7 @@
 
 #include "apps/commands/interrupt.h"
 #include "apps/commands/study_saving.h"
+#include "apps/files/json_text.h"
 #include "apps/files/reference.h"
 #include "apps/files/series_files.h"
 #include "core/base/error.h"
@@ -100,7 +101,7 @@ Json made_identity(const StudyRequest& request, std::uint64_t samples, const Sce
 }
 
 fs::path cache_path(const fs::path& cache, const Json& identity) {
-    const std::string text = identity.dump();
+    const std::string text = json_text(identity);
     return cache / fmt::format("reference-{:016x}", XXH64(text.data(), text.size(), 0));
 }
 
@@ -116,7 +117,7 @@ void keep(const fs::path& path, const Json& identity, const StudyReference& refe
     const Attributes attributes{{"neumann:degrees_of_freedom", degrees_of_freedom}};
     for (std::size_t i = 0; i <= N; ++i) folder.write(bounce_file(i), encode_exr(reference.pictures[i], attributes));
     folder.write(sum_file(N), encode_exr(reference.pictures.back(), attributes));
-    folder.write("run.json", identity.dump(2) + "\n");
+    folder.write("run.json", json_text(identity, 2) + "\n");
     folder.commit();
 }
 

@@ -5,6 +5,7 @@
 #include "apps/commands/parse_definitions.h"
 #include "apps/commands/print_warnings.h"
 #include "apps/commands/progress_line.h"
+#include "apps/files/json_text.h"
 #include "apps/files/scene_json.h"
 #include "apps/files/unbounce_files.h"
 #include "core/base/error.h"
@@ -201,11 +202,11 @@ int unbounce_command(const UnbounceRequest& request) {
     json["version"] = NEUMANN_VERSION;
     if (input.renders) write_light_renders(folder, *input.renders);
     write_unbounced(folder, found, input.forward);
-    folder.write("unbounce.json", json.dump(2) + "\n");
+    folder.write("unbounce.json", json_text(json, 2) + "\n");
     folder.commit();
     if (input.renders) print_warnings(texts(input.renders->warnings), request.quiet);
     if (request.json)
-        fmt::print("{}\n", json.dump(2));
+        fmt::print("{}\n", json_text(json, 2));
     else if (!request.quiet)
         print(found, forward, doubts, output);
     return 0;

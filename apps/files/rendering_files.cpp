@@ -1,6 +1,7 @@
 #include "apps/files/rendering_files.h"
 
 #include "apps/files/health_json.h"
+#include "apps/files/json_text.h"
 #include "apps/files/run_json.h"
 #include "apps/files/series_files.h"
 #include "apps/files/ways_files.h"
@@ -70,7 +71,7 @@ WrittenRendering write_rendering(const Rendering& rendering, OutputFolder& folde
         data = explorer_data({&explored});
         folder.write("index.html", explorer_page(data));
     }
-    folder.write("run.json", json.dump(2) + "\n");
+    folder.write("run.json", json_text(json, 2) + "\n");
     folder.commit();
     return {warnings, json, std::move(data), std::move(why_no_paths)};
 }

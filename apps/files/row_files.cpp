@@ -1,5 +1,6 @@
 #include "apps/files/row_files.h"
 
+#include "apps/files/json_text.h"
 #include "apps/files/state_file.h"
 #include "core/base/error.h"
 #include "core/base/stopwatch.h"
@@ -30,7 +31,7 @@ void expect_same_scene(const fs::path& folder, const Json& now, const Json& kept
         if (value != before)
             throw InputError(
                 fmt::format("--keep {}: holds rays of another scene: its {} is {} there, and {} here; expected another folder",
-                            folder.string(), name, before.dump(), value.dump()));
+                            folder.string(), name, json_text(before), json_text(value)));
     }
 }
 

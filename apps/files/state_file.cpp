@@ -1,5 +1,6 @@
 #include "apps/files/state_file.h"
 
+#include "apps/files/json_text.h"
 #include "core/base/error.h"
 #include "core/geometry/ray_caster.h"
 
@@ -39,7 +40,7 @@ private:
 void write_state(Json header, std::vector<std::string_view> pieces,
                  const std::function<void(std::span<const std::string_view>)>& write) {
     header["program"] = program();
-    const std::string text = header.dump();
+    const std::string text = json_text(header);
     const std::uint64_t size = text.size();
     std::vector<std::string_view> head = {magic, bytes_of(&size, 1), text};
     StateHash hash;

@@ -1,5 +1,6 @@
 #include "apps/files/study_journal.h"
 
+#include "apps/files/json_text.h"
 #include "core/base/error.h"
 
 #include <fcntl.h>
@@ -114,10 +115,11 @@ void StudyJournal::read() {
 }
 
 void StudyJournal::expect_same(const Json& now) const {
+    const Json as_written = Json::parse(json_text(now));
     for (const auto& [name, value] : study.items())
-        if (now.at(name) != value)
-            throw InputError(
-                fmt::format("--resume: {} is {}, and the study that was cut off has {}", name, now.at(name).dump(), value.dump()));
+        if (as_written.at(name) != value)
+            throw InputError(fmt::format("--resume: {} is {}, and the study that was cut off has {}", name, json_text(now.at(name)),
+                                         json_text(value)));
 }
 
 void StudyJournal::begin(const Json& new_study, const Json& new_plan) {
@@ -131,7 +133,7 @@ void StudyJournal::begin(const Json& new_study, const Json& new_plan) {
 }
 
 void StudyJournal::append(const Json& json) {
-    const std::string line = json.dump() + "\n";
+    const std::string line = json_text(json) + "\n";
     write_at(lines_, line.data(), line.size(), ::lseek(lines_, 0, SEEK_END), lines_path_);
 }
 

@@ -1,5 +1,6 @@
 #include "apps/live/page_server.h"
 
+#include "apps/files/json_text.h"
 #include "apps/pages/page.h"
 #include "core/base/error.h"
 
@@ -190,7 +191,7 @@ private:
         news["finished"] = is_finished_;
         if (!is_finished_ || after != version_) session->page.clear();
         send(session, http::status::ok, "application/json",
-             news.dump(-1, ' ', false, Json::error_handler_t::replace));  // a path may be no UTF-8
+             json_text(news));  // a path may be no UTF-8
     }
     std::string whole_page() const {
         if (data_.empty()) return neumann::page("waiting.html", {});

@@ -1,5 +1,6 @@
 #include "apps/pages/compare_page.h"
 
+#include "apps/files/json_text.h"
 #include "apps/files/rendered_folder.h"
 #include "apps/pages/explorer_page.h"
 #include "core/base/error.h"
@@ -42,7 +43,7 @@ void write_compare_page(const std::string& output, const std::vector<std::string
     for (const ExploredRun& run : runs) shown.push_back(&run);
     if (runs.front().pictures.factor() > 1) fmt::print(stderr, "note: {}\n", runs.front().pictures.reduction());
     folder.write("index.html", explorer_page(shown, figures));
-    folder.write("compare.json", figures.dump(2) + "\n");
+    folder.write("compare.json", json_text(figures, 2) + "\n");
     folder.commit();
 }
 

@@ -1,4 +1,5 @@
 #include "apps/pages/page.h"
+#include "apps/files/json_text.h"
 
 namespace neumann {
 
@@ -31,7 +32,7 @@ std::string page(std::string_view name, const std::vector<std::string_view>& dat
 
 // A "<" could end the script element or begin a comment. In JSON it only occurs in strings, so it can be escaped.
 std::string for_script(const nlohmann::ordered_json& json) {
-    std::string text = json.dump();
+    std::string text = json_text(json);
     for (std::size_t at = 0; (at = text.find('<', at)) != std::string::npos;) text.replace(at, 1, "\\u003c");
     return text;
 }

@@ -1,6 +1,7 @@
 #include "apps/processes/helper.h"
 
 #include "apps/commands/limits.h"
+#include "apps/files/json_text.h"
 #include "apps/processes/launch.h"
 #include "apps/processes/render_message.h"
 #include "apps/processes/share_message.h"
@@ -132,7 +133,7 @@ private:
     }
 
     void fail(const std::exception& e) { send({{"failed", e.what()}, {"machine", processes_.machine()}}); }
-    void send(const Json& text, const std::vector<std::byte>& numbers = {}) { processes_.send(0, text.dump(), {numbers}); }
+    void send(const Json& text, const std::vector<std::byte>& numbers = {}) { processes_.send(0, json_text(text), {numbers}); }
 
     Processes& processes_;
     std::optional<ThreadLimit> threads_;

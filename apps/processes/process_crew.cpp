@@ -1,5 +1,6 @@
 #include "apps/processes/process_crew.h"
 
+#include "apps/files/json_text.h"
 #include "apps/processes/render_message.h"
 #include "apps/processes/share_message.h"
 #include "apps/processes/together.h"
@@ -39,7 +40,7 @@ public:
         if (to == 0) return false;
         std::vector<double> outdo;
         for (const LargestSamples& largest : tally.largest) outdo.push_back(largest.threshold());
-        processes_.send(to, Json{{"do", "share"}, {"number", number_}, {"share", as_json(share)}}.dump(),
+        processes_.send(to, json_text(Json{{"do", "share"}, {"number", number_}, {"share", as_json(share)}}),
                         {std::as_bytes(std::span(outdo))});
         ++of(to).shares;
         return true;
@@ -72,7 +73,7 @@ private:
         int shares = 0;
     };
     void tell(const Json& all) {
-        for (int rank = 1; rank < processes_.size(); ++rank) processes_.send(rank, all.dump());
+        for (int rank = 1; rank < processes_.size(); ++rank) processes_.send(rank, json_text(all));
     }
     Helper& of(int rank) { return helpers_[static_cast<std::size_t>(rank)]; }
 
@@ -98,7 +99,7 @@ public:
 
 private:
     void tell(const Json& all, std::span<const std::byte> numbers = {}) {
-        for (int rank = 1; rank < processes_.size(); ++rank) processes_.send(rank, all.dump(), {numbers});
+        for (int rank = 1; rank < processes_.size(); ++rank) processes_.send(rank, json_text(all), {numbers});
     }
 
     Processes& processes_;

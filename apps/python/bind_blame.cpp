@@ -2,6 +2,7 @@
 #include "apps/commands/blame_command.h"
 #include "apps/commands/interrupt.h"
 #include "apps/files/blame_files.h"
+#include "apps/files/json_text.h"
 #include "apps/python/module.h"
 #include "core/base/error.h"
 
@@ -37,7 +38,7 @@ py::tuple as_tuple(const Blame& found, const Scene& scene) {
     for (const TermVerdict& t : found.terms)
         terms.append(py::make_tuple(as_array(t.theirs.mean), as_array(t.ours.mean), as_array(t.difference.mean),
                                     as_array(t.difference.standard_error), as_array(t.z)));
-    return py::make_tuple(blame_json(found, scene).dump(), terms);
+    return py::make_tuple(json_text(blame_json(found, scene)), terms);
 }
 
 std::unique_ptr<Job> start(const std::shared_ptr<LoadedScene>& loaded, const Arrays& pictures, const Arrays& again,

@@ -3,6 +3,7 @@
 #include "apps/commands/solve_command.h"
 #include "apps/commands/spectrum_command.h"
 #include "apps/commands/spectrum_print.h"
+#include "apps/files/json_text.h"
 #include "apps/python/module.h"
 
 #include <pybind11/eigen.h>
@@ -14,13 +15,14 @@ namespace {
 
 std::unique_ptr<Job> start_spectrum(const std::shared_ptr<LoadedScene>& loaded, const std::vector<std::string>& arguments) {
     SpectrumRequest request = parse<SpectrumRequest>("spectrum", add_spectrum, *loaded, arguments);
+    channel_number(request.channel);  // throws before anything is traced
     request.patches.command_line = command_line("spectrum", *loaded, arguments);
     return std::make_unique<Job>(request.patches.threads, [loaded, request](Job& job) -> Job::Finish {
         job.tell("tracing T and looking for eigenvalues");
         const auto scene = patch_scene(*loaded, request.patches);
         const auto tell = [&](const std::function<std::string()>& text) { job.tell(text()); };
         const auto report = std::make_shared<const SceneSpectrum>(spectrum_of(*scene, request, tell));
-        return [report, json = spectrum_json(*scene, *report).dump()]() -> py::object {
+        return [report, json = json_text(spectrum_json(*scene, *report))]() -> py::object {
             py::list vectors;
             for (const ChannelSpectrum& channel : report->channels) {
                 Eigen::MatrixXcd columns;
@@ -43,7 +45,7 @@ std::unique_ptr<Job> start_solve(const std::shared_ptr<LoadedScene>& loaded, con
         job.tell("solving L = Le + K L by all solvers");
         const auto scene = patch_scene(*loaded, request.patches);
         const auto solved = std::make_shared<const SolvedScene>(solve_scene(*scene, request, true));
-        return [solved, json = solve_json(*scene, request, *solved).dump(), warnings = scene->warnings()]() -> py::object {
+        return [solved, json = json_text(solve_json(*scene, request, *solved)), warnings = scene->warnings()]() -> py::object {
             py::list x;
             for (const SolverRow& row : solved->all.rows) x.append(row.result.x);
             return py::make_tuple(json, x, warnings);

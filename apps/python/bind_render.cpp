@@ -3,6 +3,7 @@
 #include "apps/commands/print_warnings.h"
 #include "apps/commands/progress_line.h"
 #include "apps/commands/render_command.h"
+#include "apps/files/json_text.h"
 #include "apps/files/run_json.h"
 #include "apps/files/series_files.h"
 #include "apps/live/live_page.h"
@@ -135,7 +136,7 @@ void bind_render(py::module_& m) {
         .def("table", [](const Mergeable& r) { return series_table(r.series.report); })
         .def("convergence", [](const Mergeable& r) { return convergence_table(r.series.convergence); })
         .def("run",
-             [](const Mergeable& r, const std::string& folder) { return run_json(r, r.warnings(), folder, r.seconds).dump(); })
+             [](const Mergeable& r, const std::string& folder) { return json_text(run_json(r, r.warnings(), folder, r.seconds)); })
         .def_property_readonly("warnings", [](const Mergeable& r) { return texts(r.series.warnings); })
         .def(
             "complaints", [](const Mergeable& r, const std::string& folder) { return r.complaints(folder); }, py::arg("folder"))

@@ -1,6 +1,7 @@
 // Reads scenes and returns information about them.
 #include "apps/command_line/scenes_along.h"
 #include "apps/commands/print_warnings.h"
+#include "apps/files/json_text.h"
 #include "apps/files/plan_json.h"
 #include "apps/python/module.h"
 #include "core/base/stopwatch.h"
@@ -84,7 +85,11 @@ Loaded edited(const LoadedScene& scene, const std::vector<std::tuple<std::string
 void bind_scene(py::module_& m) {
     m.def("trees_built", &trees_built, "The number of acceleration structures that were built so far.");
     py::class_<LoadedScene, std::shared_ptr<LoadedScene>>(m, "Scene", "A scene as its files were when it was read.")
-        .def_readonly("path", &LoadedScene::path)
+        .def_property_readonly("path",
+                               [](const LoadedScene& s) {  // bytes that are no UTF-8 as Python has them in names of files
+                                   return py::reinterpret_steal<py::str>(
+                                       PyUnicode_DecodeFSDefaultAndSize(s.path.data(), static_cast<py::ssize_t>(s.path.size())));
+                               })
         .def_readonly("definitions", &LoadedScene::definitions)
         .def_property_readonly("edits",
                                [](const LoadedScene& s) {
@@ -107,7 +112,7 @@ void bind_scene(py::module_& m) {
         .def_property_readonly("replaced", [](const LoadedScene& s) { return s.scene->replaced; })
         .def("plan", [](const std::shared_ptr<LoadedScene>& loaded) {
             return std::make_unique<Job>(0, [loaded](Job&) -> Job::Finish {
-                const std::string json = plan_json(plan_with_bounces(*loaded->scene)).dump();
+                const std::string json = json_text(plan_json(plan_with_bounces(*loaded->scene)));
                 return [json] { return py::str(json); };
             });
         });

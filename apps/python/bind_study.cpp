@@ -1,5 +1,6 @@
 // `neumann study`.
 #include "apps/commands/study_data.h"
+#include "apps/files/json_text.h"
 #include "apps/python/module.h"
 #include "core/base/error.h"
 
@@ -51,7 +52,7 @@ std::unique_ptr<Job> start(const std::shared_ptr<LoadedScene>& loaded, const std
             request, *loaded->scene, loaded->seconds, [&](const std::string& what, double fraction) { job.tell(what, fraction); },
             [&](const StudyData& data, const std::vector<StudiedPicture>&, const nlohmann::ordered_json& found) {
                 csv = study_csv(data);
-                json = found.dump();
+                json = json_text(found);
                 warnings = data.warnings();
             });
         if (json.empty()) throw RunError("interrupted before any method had two runs");

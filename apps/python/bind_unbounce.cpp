@@ -1,5 +1,6 @@
 // `neumann unbounce`, on arrays: pictures have the shape (lights, height, width, 3).
 #include "apps/commands/interrupt.h"
+#include "apps/files/json_text.h"
 #include "apps/files/unbounce_files.h"
 #include "apps/python/module.h"
 #include "core/base/error.h"
@@ -135,7 +136,7 @@ std::unique_ptr<Job> unbounce_arrays(const py::object& pictures, const py::objec
             unbounce(lights, task->regions, task->picture ? &*task->picture : nullptr, task->settings, watch));
         const auto terms = agreement(*found, task->picture ? std::vector<Estimate>() : task->forward,
                                      task->besides ? task->besides->by_way_of_unseen : std::vector<MeanWithError>());
-        const std::string json = unbounce_json(*found, task->names, terms, doubts_about(*found, task->names, terms)).dump();
+        const std::string json = json_text(unbounce_json(*found, task->names, terms, doubts_about(*found, task->names, terms)));
         return [found, json]() -> py::object { return as_tuple(*found, json); };
     });
 }

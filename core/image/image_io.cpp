@@ -1,5 +1,6 @@
 #include "core/image/image_io.h"
 
+#include "core/base/input_file.h"
 #include "core/base/module.h"
 #include "core/image/module/picture_codec.h"
 
@@ -37,11 +38,23 @@ void write_exr_parts(const std::filesystem::path& path, std::size_t count, const
 }
 std::string encode_png(const DisplayImage& picture, const std::string& comment) { return writer().encode_png(picture, comment); }
 std::string encode_gif(const DisplayImage& picture) { return writer().encode_gif(picture); }
-PixelEstimate read_exr(const std::string& path, Attributes* attributes) { return reader().read_exr(path, attributes); }
-Texels read_texels(const std::string& path) { return reader().read_texels(path); }
+PixelEstimate read_exr(const std::string& path, Attributes* attributes) {
+    expect_input(path, "a picture");
+    return reader().read_exr(path, attributes);
+}
+Texels read_texels(const std::string& path) {
+    expect_input(path, "a picture");
+    return reader().read_texels(path);
+}
 Texels decode_texels(std::string_view bytes, const std::string& name) { return reader().decode_texels(bytes, name); }
-std::vector<std::string> layers_in(const std::string& path) { return reader().layers_in(path); }
-Texels read_layer(const std::string& path, const std::string& name) { return reader().read_layer(path, name); }
+std::vector<std::string> layers_in(const std::string& path) {
+    expect_input(path, "a picture");
+    return reader().layers_in(path);
+}
+Texels read_layer(const std::string& path, const std::string& name) {
+    expect_input(path, "a picture");
+    return reader().read_layer(path, name);
+}
 std::optional<std::string> find_label_font() { return writer().find_label_font(); }
 int text_width(const std::string& text, int font_size, const std::string& font) {
     return writer().text_width(text, font_size, font);

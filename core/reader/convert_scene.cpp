@@ -5,6 +5,7 @@
 #include "core/reader/meshes/write_ply.h"
 #include "core/reader/read_scene.h"
 #include "core/reader/xml/document.h"
+#include "core/reader/xml/grammar.h"
 #include "core/reader/xml/write_xml.h"
 
 #include <algorithm>
@@ -112,6 +113,12 @@ void warn_of_others(const Element& e, Warnings& warnings) {
                                            "bsdf ward",    "texture scale",    "texture vertexcolors"};
     if (const Attribute* type = e.find("type"); type && std::ranges::find(others, e.tag + " " + type->value) != std::end(others))
         warnings.add(fmt::format("{} '{}' is none of Mitsuba 3's", e.tag, type->value));
+    if (const Attribute* type = e.find("type"); type && type->value == "roughplastic")
+        for (const Element& child : e.children)
+            if (const Attribute* name = child.find("name"); name && name->value == "alpha" && !is_parameter(child.tag))
+                warnings.add("a texture as alpha of bsdf 'roughplastic' is none of Mitsuba 3's");
+    if (const Attribute* name = e.find("name"); name && name->value == "falloff")
+        warnings.add("falloff of emitter 'spot' is none of Mitsuba 3's, where it is linear in the angle");
     for (const Element& child : e.children) warn_of_others(child, warnings);
 }
 

@@ -9,6 +9,7 @@
 
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,7 @@ struct RawScene {
     FilesInMemory in_memory = {};
     // What is hashed in place of the main file, where that is none and the first of `files` is just its name.
     std::string text = {};
+    std::set<std::string> used = {};  // names of the command line's -D that the importer itself has looked at
 };
 
 }  // namespace neumann::reader

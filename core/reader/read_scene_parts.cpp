@@ -64,7 +64,11 @@ ReadSensor read_only_sensor(const Element& root, const Context& context, const s
 }
 
 Origin origin(const Element& shape, const Element* bsdf) {
-    const auto title = [](const Element& e) { return fmt::format("{} '{}'", e.tag, e.attribute("type").value); };
+    // By its id, or else by its type.
+    const auto title = [](const Element& e) {
+        const Attribute* id = e.find("id");
+        return fmt::format("{} '{}'", e.tag, id ? id->value : e.attribute("type").value);
+    };
     return {shape.place, title(shape), bsdf ? title(*bsdf) : "default bsdf"};
 }
 

@@ -79,6 +79,23 @@ void expect_near(const Geometry& geometry, const SensorOptions& camera, const st
     throw origins.empty() ? InputError(what) : InputError(Location{origins.front().place.file}, what);
 }
 
+// Where nothing is between the planes, pictures are dark without a sample that tells why.
+void warn_of_clipping(const Geometry& geometry, const SensorOptions& camera, Warnings& warnings) {
+    for (const SensorOptions& sensor : camera.sensors) warn_of_clipping(geometry, sensor, warnings);
+    if (camera.is_even() || camera.kind == SensorOptions::Kind::batch || geometry.shapes().empty()) return;
+    // Along the view, of the sphere around all shapes.
+    const Vec3 to_centre = -geometry.caster().to_embree(Vec3(camera.to_world[3])) / geometry.caster().scale();
+    const Vec3 view = Vec3(camera.to_world[2]) / length_of(Vec3(camera.to_world[2]));
+    const double middle = glm::dot(to_centre, view), nearest = middle - geometry.radius(), farthest = middle + geometry.radius();
+    if (farthest > 0.0 && farthest < camera.near_clip)
+        warnings.add(
+            fmt::format("the camera sees no surface: all are nearer than its near_clip, {:g}; the farthest are {:.2g} away",
+                        camera.near_clip, farthest));
+    if (nearest > camera.far_clip)
+        warnings.add(fmt::format("the camera sees no surface: all are farther than its far_clip, {:g}; the nearest are {:.2g} away",
+                                 camera.far_clip, nearest));
+}
+
 // Three digits, and more if an albedo above 1 would be printed as 1.
 std::string albedo_text(double albedo) {
     return albedo > 1.0 && albedo < 1.0005 ? fmt::format("1 + {:.1g}", albedo - 1.0) : fmt::format("{:.3f}", albedo);
@@ -151,6 +168,7 @@ Scene make_scene(SceneParts parts) {
     expect_size(geometry, parts.origins);
     expect_visible(geometry, parts.origins, parts.warnings);
     expect_near(geometry, parts.camera, parts.origins);
+    warn_of_clipping(geometry, parts.camera, parts.warnings);
     Materials materials(std::move(parts.bsdfs), std::move(parts.sides_of_shape), geometry.shared_shapes());
     Warnings warnings = std::move(parts.warnings);
     warn_of_coincidence(coincident_surfaces(geometry, materials, parts.lights.of_shape), parts.origins, warnings);

@@ -1,6 +1,7 @@
 #include "core/texture/bitmap.h"
 
 #include "core/colour/spectrum_to_rgb.h"
+#include "core/colour/srgb_bytes.h"
 #include "core/image/display.h"
 
 #include <algorithm>
@@ -15,10 +16,10 @@ Bitmap::Bitmap(std::shared_ptr<const Texels> texels, Filter filter, Wrap wrap, b
       decode_(!raw && texels_->is_encoded),
       smallest_(std::numeric_limits<double>::infinity()),
       largest_(-std::numeric_limits<double>::infinity()) {
-    for (std::size_t i = 0; i < value_of_byte_.size(); ++i) {
-        const double value = static_cast<double>(i) / 255.0;
-        value_of_byte_[i] = decode_ ? srgb_decode(value) : value;
-    }
+    if (decode_)
+        value_of_byte_ = decoded_srgb_bytes();
+    else
+        for (std::size_t i = 0; i < value_of_byte_.size(); ++i) value_of_byte_[i] = static_cast<double>(i) / 255.0;
     for (int y = 0; y < texels_->height; ++y)
         for (int x = 0; x < texels_->width; ++x) {
             const Rgb c = texel(x, y);

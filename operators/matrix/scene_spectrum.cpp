@@ -95,14 +95,19 @@ SceneSpectrum scene_spectrum(const MatrixSystem& system, const SpectrumLimits& l
     found.rays_without_hit = static_cast<double>(system.rays_that_see_nothing()) / static_cast<double>(system.rays());
     found.reciprocity_defect = reciprocity_defect(*transport);
     found.emits = !system.scene().emitters.empty();
-    const int channels = system.channels();
+    std::vector<int> channels;
+    for (int c = 0; c < system.channels(); ++c)
+        if (!limits.channel || system.channels() == 1 || c == *limits.channel) channels.push_back(c);
     // Each channel gets as much time as all comparisons together.
-    for (int c = 0; c < channels; ++c)
+    for (const int c : channels) {
+        const auto left = static_cast<double>(channels.size() - found.channels.size() + 1);
         found.channels.push_back(
-            channel_spectrum(system, c, limits, time.part(1.0 / (channels - c + 1), system.channel_name(c)), watch, found.warnings));
+            channel_spectrum(system, c, limits, time.part(1.0 / left, system.channel_name(c)), watch, found.warnings));
+    }
     found.coarser = coarser_spectra(system, time.part(1.0, "coarser"));
-    for (int c = 0; c < channels; ++c) {
-        ChannelSpectrum& s = found.channels[static_cast<std::size_t>(c)];
+    for (std::size_t i = 0; i < channels.size(); ++i) {
+        const int c = channels[i];
+        ChannelSpectrum& s = found.channels[i];
         find_convergence(s, system, c, found.coarser, time.part(1.0, s.name).watch);
         if (s.norms.sup >= 1.0)
             found.warnings.push_back(
@@ -110,6 +115,11 @@ SceneSpectrum scene_spectrum(const MatrixSystem& system, const SpectrumLimits& l
                             "radius to say",
                             s.name, s.norms.sup));
         if (!s.leading.converged) found.warnings.push_back(fmt::format("{}: eigenvalues were {}", s.name, s.leading.why));
+    }
+    for (RefinementRow& row : found.coarser) {
+        std::vector<std::vector<std::complex<double>>> asked;
+        for (const int c : channels) asked.push_back(std::move(row.leading[static_cast<std::size_t>(c)]));
+        row.leading = std::move(asked);
     }
     if (has_glass(system.space())) found.warnings.push_back(trapped_light);
     if (watch.stop())

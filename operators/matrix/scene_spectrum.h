@@ -44,6 +44,7 @@ struct SceneSpectrum {
 
 struct SpectrumLimits {
     int eigenvalues = 4;
+    std::optional<int> channel = {};  // the only one; without it all that differ
     double seconds = 60.0;
     double most = 10000.0;             // applications of K in a search
     std::optional<std::string> petsc;  // SLEPc's options for another search for the eigenvalues of each channel

@@ -6,6 +6,10 @@ namespace neumann {
 
 namespace {
 
+// Where few samples are taken, ordinary ones make half of a dark pixel, too. One that is no outlier does not make as much as the
+// picture's mean of its pixel once there are so many.
+constexpr double samples_of_ordinary_noise = 256.0;
+
 // The share of one sample's value in the sum of a pixel's samples, which is `samples` times the mean.
 double share(double value, double samples, const Rgb& mean) {
     const double all = samples * max_component(mean);
@@ -59,7 +63,8 @@ Health examine(const Scene& scene, const SamplingSettings& settings, const Rende
             const LargestShare found{sample, share(sample.value, samples, result.term_at(pixel, q)),
                                      share(sample.value, samples, result.sum_at(pixel, quantities - 1))};
             const bool firefly = q > 0 && series.samples >= fewest_samples_to_judge && found.of_sum > 0.5 &&
-                                 sample.value > samples * mean && sample.value > 0.25 * samples * brightest;
+                                 sample.value > std::max(samples, samples_of_ordinary_noise) * mean &&
+                                 sample.value > 0.25 * samples * brightest;
             if (firefly ? bounce.fireflies == 0 || found.of_sum > bounce.largest->of_sum
                         : bounce.fireflies == 0 && (!bounce.largest || found.of_bounce > bounce.largest->of_bounce))
                 bounce.largest = found;

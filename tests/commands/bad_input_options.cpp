@@ -212,4 +212,47 @@ TEST_F(BadInputOptions, ManyPicturesForTheMemory) {
     EXPECT_EQ(names(), Names{"scene.xml"});
 }
 
+// Names that no file can have.
+TEST_F(BadInputOptions, NamesThatCannotBe) {
+    std::filesystem::create_symlink("loop", path("loop"));
+    const std::string long_name(300, 'x');
+    for (const auto& [name, why] :
+         {std::pair(std::string("loop"), "Too many levels of symbolic links"), {long_name, "File name too long"}})
+        for (const std::vector<std::string>& arguments :
+             {std::vector<std::string>{"render", "scene.xml", "-n", "0", "--spp", "1", "-o", name},
+              {"render", "scene.xml", "-n", "0", "--spp", "1", "-o", "a", "--reference", name},
+              {"page", name},
+              {"replay", name, "1"},
+              {"merge", name, name, "-o", "b"},
+              {"plan", name}}) {
+            const Finished done = run(arguments);
+            EXPECT_EQ(done.exit_code, 2) << arguments.front() << ": " << done.err;
+            EXPECT_TRUE(done.err.starts_with(name)) << done.err;
+            EXPECT_NE(done.err.find(why), std::string::npos) << done.err;
+        }
+}
+
+// Options stand behind the command, and are told so by their own name.
+TEST_F(BadInputOptions, BeforeTheCommand) {
+    const Finished done = run({"--spp", "4", "render", "scene.xml"});
+    EXPECT_EQ(done.exit_code, 2);
+    EXPECT_EQ(
+        done.err,
+        "--spp stands before the command, expected after it: neumann render … --spp\nRun with --help for more information.\n");
+}
+
+TEST_F(BadInputOptions, OfOtherPrograms) {
+    const std::string size =
+        " has no such option; here it is -D, as in -D res=256 or -D width=256: sizes have the names that the scene "
+        "gives them\nRun with --help for more information.\n";
+    for (const char* option : {"--res", "--size", "-r", "--width"}) {
+        EXPECT_EQ(refusal({option, "64"}), std::string(option) + ": render" + size);
+        EXPECT_EQ(run({"plan", "scene.xml", option, "64"}).err, std::string(option) + ": plan" + size);
+    }
+    EXPECT_EQ(refusal({"--max-depth", "3"}),
+              "--max-depth: render has no such option; here it is -n, the last bounce; programs count differently, see counting.md "
+              "of the "
+              "manual\nRun with --help for more information.\n");
+}
+
 }  // namespace neumann::bad_input_options_test

@@ -56,6 +56,16 @@ TEST_F(Health, HealthyScenesSayNothing) {
     }
 }
 
+// With few samples one that is like many others makes half of a dark pixel, too, and is no outlier.
+TEST_F(Health, OrdinaryNoiseOfFewSamples) {
+    for (const char* scene : {"cornell-box", "metal-room", "door-ajar"})
+        for (const char* seed : {"1", "2", "3", "4"}) {
+            const Finished done =
+                render(scene_file(scene), scene, {"-D", "res=32", "-n", "3", "--spp", "16", "--method", "walk", "--seed", seed});
+            EXPECT_EQ(done.err.find("sick"), std::string::npos) << scene << ", seed " << seed << ": " << done.err;
+        }
+}
+
 TEST_F(Health, OfOtherMethods) {
     write("scene.xml", plates());
     for (const char* method :

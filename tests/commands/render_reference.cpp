@@ -53,9 +53,9 @@ TEST_F(RenderReference, Refused) {
     EXPECT_EQ(refusal("nowhere"), "nowhere: is not a folder; --reference takes the folder of an earlier render\n");
     EXPECT_EQ(refusal("scene.xml"), "scene.xml: is not a folder; --reference takes the folder of an earlier render\n");
     std::filesystem::create_directories(path("empty"));
-    EXPECT_EQ(refusal("empty"), "empty/bounce_000.exr: cannot be read: No such file or directory\n");
+    EXPECT_EQ(refusal("empty"), "empty/bounce_000.exr: there is no such file\n");
     render("scene.xml", "one", {"-n", "1", "--spp", "1", "--quiet"});
-    EXPECT_EQ(refusal("one"), "one/bounce_002.exr: cannot be read: No such file or directory\n");
+    EXPECT_EQ(refusal("one"), "one/bounce_002.exr: there is no such file\n");
     EXPECT_EQ(refusal("one", {"-D", "width=163"}), "one/bounce_000.exr: is 164×5 pixels, expected 163×5 as the scene's film\n");
     write("broken/bounce_000.exr", "no picture");
     EXPECT_EQ(refusal("broken"),

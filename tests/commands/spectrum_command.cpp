@@ -57,6 +57,24 @@ TEST_F(SpectrumCommand, Furnace) {
     }
 }
 
+// One channel alone is what it is among all.
+TEST_F(SpectrumCommand, OneChannel) {
+    const std::vector<std::string> room = {SCENES "/cornell-box/cornell-box.xml", "--patches", "60", "--directions", "8"};
+    const auto all = json(room);
+    ASSERT_EQ(all["channels"].size(), 3u);
+    for (const auto& [letter, number] : {std::pair("r", 0), {"g", 1}, {"b", 2}}) {
+        std::vector<std::string> one = room;
+        one.insert(one.end(), {"--channel", letter});
+        const auto found = json(one);
+        ASSERT_EQ(found["channels"].size(), 1u);
+        EXPECT_EQ(found["channels"][0]["name"], all["channels"][number]["name"]);
+        EXPECT_EQ(found["channels"][0]["eigenvalues"], all["channels"][number]["eigenvalues"]);
+        EXPECT_EQ(found["channels"][0]["refinement"], all["channels"][number]["refinement"]);
+        EXPECT_EQ(found["channels"][0]["spectral_radius_shift"], all["channels"][number]["spectral_radius_shift"]);
+    }
+    EXPECT_EQ(refusal({room[0], "--channel", "x"}), "--channel x: expected r, g or b\n");
+}
+
 // Two surfaces that exchange light: F_ss = 3/4, F_sd = 1/4, and F_ds = 3/4 / 0.87², for the disk's rim is outside. 13 rings of
 // patches, of which the disk's plane is nearly a border: this moves the eigenvalues by up to 0.0003. Over 50 seeds they have
 // standard deviations of at most 0.0005, of which the limit is 4.5, and the 0.0003.

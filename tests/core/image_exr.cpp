@@ -131,12 +131,12 @@ TEST_F(ImageExr, OtherFormatsAreRead) {
 
 TEST_F(ImageExr, AMissingFileIsRefused) {
     const std::string path = (folder_ / "none.exr").string();
-    EXPECT_EQ(refusal(path), path + ": cannot be read: No such file or directory");
+    EXPECT_EQ(refusal(path), path + ": there is no such file");
 }
 
 TEST_F(ImageExr, AFolderIsRefused) {
     const std::string path = folder_.string();
-    EXPECT_EQ(refusal(path), path + ": cannot be read: Is a directory");
+    EXPECT_EQ(refusal(path), path + ": is a folder, expected a picture");
 }
 
 TEST_F(ImageExr, WhatIsNotAPictureIsRefused) {

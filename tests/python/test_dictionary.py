@@ -117,6 +117,10 @@ class Dictionaries(Case):
         moved = neumann.load_dict({**given, "walls": {**given["walls"], "vertices": 2 * vertices, "to_world": half}})
         np.testing.assert_array_equal(terms(moved), found)
 
+    def test_whole_numbers_may_be_floats(self):
+        given = {**room(), "x": {"type": "mesh", "vertices": np.eye(3), "faces": [[0.0, 1.0, 2.0]]}}
+        self.assertEqual(neumann.load_dict(given).hash, neumann.load_dict({**given, "x": {**given["x"], "faces": [[0, 1, 2]]}}).hash)
+
     def test_mesh_with_normals_and_uv(self):
         square = {
             "type": "mesh",
@@ -152,6 +156,13 @@ class Dictionaries(Case):
             (changed(x={"type": "ref", "id": "grey", "name": "y"}), "dict#/x: expected {'type': 'ref', 'id': …} with nothing else"),
             (changed(x={"type": "constant", "radiance": {"type": "spectrum", "value": [1, 2, 3]}}), "dict#/x/radiance/value: expected a number, or pairs of wavelength and value"),
             (changed(x={**triangle, "faces": [[0, 1, 3]]}), "dict#/x/faces: numbers 0 to 3, expected 0 to 2"),
+            (changed(x={**triangle, "faces": [[0, 1.5, 2]]}), "dict#/x/faces[0, 1]: 1.5, expected whole numbers"),
+            (changed(x={**triangle, "faces": np.ones((1, 3), dtype=bool)}), "dict#/x/faces: True and False, expected whole numbers"),
+            (changed(x={**triangle, "faces": [[0, 1j, 2]]}), "dict#/x/faces: complex numbers, expected real ones"),
+            (changed(x={**triangle, "faces": [["0", "1", "b"]]}), "dict#/x/faces: <U1, expected numbers"),
+            (changed(x={**triangle, "vertices": np.zeros((3, 3)) + 1j}), "dict#/x/vertices: complex numbers, expected real ones"),
+            (changed(x={**triangle, "vertices": [[0, 0, 0], [1, np.nan, 0], [0, 1, 0]]}), "dict#/x/vertices[1, 1]: nan, expected finite numbers"),
+            (changed(x={"type": "point", "position": np.array([0, 1j, 0])}), "dict#/x/position: complex numbers, expected real ones"),
             (changed(x={**triangle, "vertices": [0, 1]}), "dict#/x/vertices: an array (2,), expected (n, 3)"),
             (changed(x={**triangle, "uv": np.zeros((2, 2))}), "dict#/x/uv: 2 rows, expected one for each of 3 vertices"),
             (changed(x={"type": "mesh", "faces": [[0, 1, 2]]}), "dict#/x: a mesh without vertices"),

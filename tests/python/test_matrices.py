@@ -37,6 +37,27 @@ class Matrices(Case):
             with self.assertRaisesRegex(TypeError, rf"^{name}\(\) got an unexpected keyword argument 'pathces'$"):
                 getattr(furnace(), name)(pathces=50)
 
+    def test_keywords_name_the_nearest(self):
+        for call, said in (
+            (lambda: cornell().render(sp=4), r"render\(\) got an unexpected keyword argument 'sp'; did you mean 'spp'\?"),
+            (lambda: cornell().spectrum(patchs=4), r"spectrum\(\) got an unexpected keyword argument 'patchs'; did you mean 'patches'\?"),
+            (lambda: cornell().render(res=4), r"render\(\) got an unexpected keyword argument 'res'; sizes are defined by scenes: load\(…, res=…\)"),
+            (lambda: cornell().render(xyzzy=4), r"render\(\) got an unexpected keyword argument 'xyzzy'"),
+        ):
+            with self.assertRaisesRegex(TypeError, f"^{said}$"):
+                call()
+
+    def test_one_channel_of_the_spectrum(self):
+        scene, given = cornell(), dict(patches=60, directions=8)
+        every = scene.spectrum(**given).channels
+        for number, letter in enumerate("rgb"):
+            (one,) = scene.spectrum(channel=letter, **given).channels
+            self.assertEqual(one.name, every[number].name)
+            np.testing.assert_array_equal(one.eigenvalues, every[number].eigenvalues)
+            np.testing.assert_array_equal(one.eigenvectors, every[number].eigenvectors)
+        with self.assertRaisesRegex(neumann.InputError, "^--channel x: expected r, g or b$"):
+            scene.spectrum(channel="x", **given)
+
     def test_furnace(self):
         # A closed room: every ray of T meets something, and K^n 1 = albedo^n to rounding.
         made = furnace(0.5).matrices(**SIZE)

@@ -46,6 +46,25 @@ class Series(Case):
         with self.assertRaises(ValueError):
             neumann.series(np.zeros((3, 2)), [1.0, 2.0])
 
+    def test_what_is_no_number_is_refused(self):
+        K, Le = np.full((3, 3), 0.1), np.ones(3)
+        nan = np.where(np.eye(3), np.nan, K)
+        with_nan = scipy.sparse.csr_matrix(nan)
+        for call, said in (
+            (lambda: neumann.series(nan, Le), r"K\[0, 0\]: nan, expected finite numbers"),
+            (lambda: neumann.solve(with_nan, Le), r"the entries of K\[0\]: nan, expected finite numbers"),
+            (lambda: neumann.spectrum(nan), r"K\[0, 0\]: nan, expected finite numbers"),
+            (lambda: neumann.spectrum(K * 1j), "K: complex numbers, expected real ones"),
+            (lambda: neumann.series(scipy.sparse.csr_matrix(K * 1j), Le), "the entries of K: complex numbers, expected real ones"),
+            (lambda: neumann.series(K, [1.0, np.inf, 1.0]), r"Le\[1\]: inf, expected finite numbers"),
+            (lambda: neumann.solve(K, [1.0, np.nan, 1.0], "lu"), r"Le\[1\]: nan, expected finite numbers"),
+            (lambda: neumann.solve(K, Le, exact=Le * 1j), "exact: complex numbers, expected real ones"),
+            (lambda: neumann.solve(K, Le, reflectance=[0.1, np.nan, 0.1]), r"reflectance\[1\]: nan, expected finite numbers"),
+            (lambda: neumann.series(K, Le, measure=[1.0, np.nan, 1.0]), r"measure\[1\]: nan, expected finite numbers"),
+        ):
+            with self.assertRaisesRegex(neumann.InputError, f"^{said}$"):
+                call()
+
 
 class Solvers(Case):
     def test_cube_at_0_99(self):

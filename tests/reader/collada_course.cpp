@@ -137,6 +137,26 @@ TEST_F(ColladaCourse, WhatItsProgramForgives) {
     EXPECT_NEAR(glm::distance(Vec3(no_matrix.camera.to_world[2]), Vec3(0, -1, 0)), 0.0, 1e-15);
 }
 
+// The view of its program unless the file's is asked for, with what clips there: both have the file's field of view.
+TEST_F(ColladaCourse, WhoseView) {
+    const std::string text = changed({{"<mesh>", technique("<sphere><radius>1</radius></sphere>") + "<mesh>"}});
+    // The sphere's box is [-1, 3] × [0, 4] × [1, 5]; the program's direction is (0, 0, 5) − (0, 0, 1).
+    const SceneParts program = read_dae(text), file = read_dae(text, {{"camera", "file"}});
+    EXPECT_NEAR(glm::distance(Vec3(program.camera.to_world[3]), Vec3(1, 2, 3 + 3 * std::sqrt(12.0))), 0.0, 1e-13);
+    EXPECT_EQ(Vec3(file.camera.to_world[3]), Vec3(0, 0, 5));
+    EXPECT_EQ(file.camera.far_clip, 90.0);
+    EXPECT_NE(program.camera.far_clip, 90.0);
+    EXPECT_EQ(program.camera.fov, file.camera.fov);
+    EXPECT_EQ(program.warnings.counts().count(
+                  "the camera's direction is the file's, and it stands where it sees the whole scene, as in the "
+                  "course's program; -D camera=file takes its place, too"),
+              1u);
+    // Other files have no other view.
+    EXPECT_EQ(Vec3(read_dae(small(), {{"camera", "file"}}).camera.to_world[3]), Vec3(0, 0, 5));
+    // 16 numbers are a view as ever.
+    EXPECT_EQ(Vec3(read_dae(text, {{"camera", "1 0 0 7 0 1 0 8 0 0 1 9 0 0 0 1"}}).camera.to_world[3]), Vec3(7, 8, 9));
+}
+
 TEST_F(ColladaCourse, Errors) {
     const auto expect = [&](const std::string& inside, const std::string& message) {
         EXPECT_EQ(error_with({{"</effect>", "\n" + technique(inside) + "</effect>"}}), message);

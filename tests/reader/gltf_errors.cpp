@@ -21,7 +21,7 @@ TEST_F(GltfErrors, Files) {
     EXPECT_EQ(error_of(path("folder.gltf")), "folder.gltf: is a folder, expected a scene file");
     EXPECT_EQ(
         error_of_bytes("a.gltf", ""),
-        "a.gltf:1:1: broken JSON: syntax error while parsing value - unexpected end of input; expected '[', '{', or a literal");
+        "a.gltf: is empty, expected a scene file");
     EXPECT_EQ(error_of_bytes("a.gltf", "{\r\n  \"asset\": {\"version\": \"2.0\",}}"),
               "a.gltf:2:30: broken JSON: syntax error while parsing object key - unexpected '}'; expected string literal");
     EXPECT_EQ(error_of_bytes("a.gltf", "[]"), "a.gltf: an array, expected an object");
@@ -136,7 +136,7 @@ TEST_F(GltfErrors, Uris) {
     };
     EXPECT_EQ(with_uri("no%20file.bin", 92), "scene.gltf#/buffers/0/uri: there is no file 'no file.bin'");
     EXPECT_EQ(with_uri("", 92), "scene.gltf#/buffers/0/uri: '' is a folder, expected a file");
-    EXPECT_EQ(with_uri("/dev/zero", 92), "scene.gltf#/buffers/0/uri: '/dev/zero' is a device, expected a file");
+    EXPECT_EQ(with_uri("/dev/zero", 92), "scene.gltf#/buffers/0/uri: '/dev/zero' is a pipe or a device, expected a file");
     EXPECT_EQ(with_uri("https://x/y.bin", 92),
               "scene.gltf#/buffers/0/uri: 'https://x/y.bin' is not a file of this machine, expected a path");
     EXPECT_EQ(with_uri("data:,abc", 92), "scene.gltf#/buffers/0/uri: 'data:,abc' is no data in base64, expected 'data:…;base64,…'");

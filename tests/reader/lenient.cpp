@@ -49,6 +49,31 @@ Rgb reflectance_of(const SceneParts& parts, std::size_t shape) {
     return std::get<Diffuse>(parts.bsdfs.at(static_cast<std::size_t>(parts.sides_of_shape.at(shape).front))).largest_albedo();
 }
 
+// A film that is not known may have a filter for each of its pictures.
+TEST_F(Lenient, FiltersOfUnknownFilms) {
+    const std::string film = "<film type='specfilm'><rfilter type='box'/><rfilter type='tent'/></film>";
+    write("scene.xml",
+          "<scene version='3.0.0'><sensor type='perspective'><float name='fov' value='40'/>\n" + film + "</sensor></scene>");
+    EXPECT_EQ(replaced("scene.xml"), (Texts{"scene.xml:2:7: film type 'specfilm' is not supported; taken as 'hdrfilm'",
+                                            "scene.xml:2:44: another <rfilter> in film 'specfilm'; ignored"}));
+    EXPECT_TRUE(std::holds_alternative<BoxFilter>(read_scene_parts(path("scene.xml"), {}, {.lenient = true}).film.filter));
+}
+
+// As it stands when the shutter opens: what moves it until it closes is left out, in its own part of the file alone.
+TEST_F(Lenient, WhatMovesInPbrt) {
+    write("scene.pbrt",
+          "Camera \"perspective\" Film \"rgb\" \"integer xresolution\" 8 \"integer yresolution\" 8\nWorldBegin\n"
+          "AttributeBegin\nActiveTransform StartTime\nTranslate -1 0 0\nActiveTransform EndTime\nTranslate 5 0 0\n"
+          "ActiveTransform All\nTranslate 0 2 0\nShape \"sphere\"\nActiveTransform EndTime\nAttributeEnd\n"
+          "Translate 0 0 7\nShape \"sphere\"\n");
+    const SceneParts parts = read_scene_parts(path("scene.pbrt"), {}, {.lenient = true});
+    EXPECT_EQ(std::get<Sphere>(parts.shapes.at(0)).center, Vec3(-1, 2, 0));
+    EXPECT_EQ(std::get<Sphere>(parts.shapes.at(1)).center, Vec3(0, 0, 7));
+    EXPECT_EQ(
+        replaced("scene.pbrt").front(),
+        "scene.pbrt:4:1: ActiveTransform StartTime: motion is not supported; what moves stands where it is when the shutter opens");
+}
+
 TEST_F(Lenient, MaterialsBecomeGreyAndDiffuse) {
     const std::string body =
         "<bsdf type='measured' id='car'><string name='filename' value='paint.bsdf'/></bsdf>\n"

@@ -248,7 +248,7 @@ TEST_F(MeshPly, LineEnds) {
 TEST_F(MeshPly, RefusesHeaders) {
     const std::string types = "expected a type (char, uchar, short, ushort, int, uint, float, double or int8 to float64), found ";
     const std::string vertex = "element vertex 3\n" + xyz;
-    EXPECT_EQ(error(""), "FILE:1:1: expected 'ply' at the beginning of a PLY file, found the end of the file");
+    EXPECT_EQ(error(""), "FILE: is empty, expected a file");
     EXPECT_EQ(error("v 0 0 0\n"), "FILE:1:1: expected 'ply' at the beginning of a PLY file, found 'v'");
     EXPECT_EQ(error("ply 2\n"), "FILE:1:5: expected the end of the line, found '2'");
     EXPECT_EQ(error("ply\nformat ascii 1.0\n"), "FILE: ends before 'end_header'");
@@ -264,7 +264,7 @@ TEST_F(MeshPly, RefusesHeaders) {
     EXPECT_EQ(header_error("element vertex -3\n"), "FILE:3:16: expected the number of elements, found '-3'");
     EXPECT_EQ(header_error("element vertex 4294967296\n"), "FILE:3:16: more than 4294967295 vertices");
     EXPECT_EQ(header_error("element face 99999999999999999999\n"),
-              "FILE:3:14: expected the number of elements, found '99999999999999999999'");
+              "FILE:3:14: expected the number of elements, found '999999999999...'");
     EXPECT_EQ(header_error("element vertex 3 4\n"), "FILE:3:18: expected the end of the line, found '4'");
     EXPECT_EQ(header_error("element tristrips 1\n"), "FILE:3:9: unsupported PLY element 'tristrips', expected an element 'face'");
     EXPECT_EQ(header_error(vertex + "element vertex 3\n"), "FILE:7:9: element 'vertex' is given twice");
@@ -381,7 +381,7 @@ TEST_F(MeshPly, RefusesFilesThatCannotBeOpened) {
         read_ply(path);
         ADD_FAILURE();
     } catch (const InputError& error) {
-        EXPECT_EQ(error.what(), path + ": cannot be opened: No such file or directory");
+        EXPECT_EQ(error.what(), path + ": there is no such file");
     }
 }
 

@@ -56,8 +56,8 @@ TEST_F(PbrtGrammar, PackedFiles) {
     write("broken.pbrt.gz", "no gzip file");
     EXPECT_EQ(error_of(path("broken.pbrt.gz")), "broken.pbrt.gz: is not a gzip file, or is damaged");
     write("empty.pbrt.gz", "");
-    EXPECT_EQ(error_of(path("empty.pbrt.gz")), "empty.pbrt.gz: ends before what is packed in it does");
-    EXPECT_EQ(error_of(path("none.pbrt")), "none.pbrt: cannot be opened: No such file or directory");
+    EXPECT_EQ(error_of(path("empty.pbrt.gz")), "empty.pbrt.gz: is empty, expected a file");
+    EXPECT_EQ(error_of(path("none.pbrt")), "none.pbrt: there is no such file");
 }
 
 TEST_F(PbrtGrammar, AttributesGiveParametersToWhatFollows) {
@@ -212,7 +212,6 @@ TEST_F(PbrtGrammar, BlocksAndOrder) {
     EXPECT_EQ(pbrt_file_error("Shape \"sphere\"\nWorldBegin"), "scene.pbrt:1:1: Shape before WorldBegin, expected after it");
     EXPECT_EQ(pbrt_file_error("Camera \"perspective\""),
               "scene.pbrt: has no WorldBegin, which stands between the camera and the shapes");
-    EXPECT_EQ(pbrt_error("Scale 0 1 1"), "scene.pbrt:3:1: Scale makes a matrix that has no inverse");
     EXPECT_EQ(pbrt_error("LookAt 0 0 0 0 0 1 0 0 2"), "scene.pbrt:3:1: the up vector of LookAt points along the view");
     EXPECT_EQ(pbrt_error("ActiveTransform EndTime"), "scene.pbrt:3:1: ActiveTransform EndTime: motion is not supported");
     EXPECT_EQ(pbrt_error("ColorSpace \"rec2020\""),

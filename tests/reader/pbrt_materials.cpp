@@ -125,6 +125,10 @@ TEST_F(PbrtMaterials, Layers) {
                          two_sided("plastic", coat + "<rgb name='diffuse_reflectance' value='0.6, 0.3, 0.1'/>"));
     expect_same_material("Material \"coateddiffuse\" \"float roughness\" 0.01",
                          two_sided("roughplastic", coat + number("diffuse_reflectance", 0.5) + ggx(0.1)));
+    EXPECT_EQ(pbrt_error("Material \"coateddiffuse\" \"float uroughness\" 0.1 \"float vroughness\" 0.2"),
+              "scene.pbrt:3:49: vroughness of material 'coateddiffuse' is not uroughness, which is not supported: its coat is "
+              "alike in all "
+              "directions");
     EXPECT_EQ(warning(read_pbrt("Material \"coateddiffuse\"")),
               "coateddiffuse: taken as 'plastic' or 'roughplastic', whose layer absorbs nothing");
     EXPECT_EQ(pbrt_error("Material \"coateddiffuse\" \"rgb albedo\" [0.5 0.5 0.5]"),
@@ -157,10 +161,14 @@ TEST_F(PbrtMaterials, DiffuseTransmission) {
     const SceneParts through = read_pbrt("Material \"diffusetransmission\" \"rgb reflectance\" [0 0 0]\nShape \"sphere\"");
     EXPECT_NEAR(eval(through.bsdfs.at(0), {}, Vec3(0, 0, 1), Vec3(0, 0, -1)).g, 0.25 * inv_pi, 1e-12);
     EXPECT_EQ(eval(through.bsdfs.at(0), {}, Vec3(0, 0, 1), Vec3(0, 0, 1)).g, 0.0);
-    EXPECT_EQ(
-        pbrt_error("Material \"diffusetransmission\" \"rgb reflectance\" [0.8 0 0] \"rgb transmittance\" [0 0 0.5]"),
-        "scene.pbrt:3:32: material 'diffusetransmission' reflects up to 0.8 and lets through up to 0.5, expected no more than 1 "
-        "together");
+    // Each is cut off at 1 after the scale, and not their sum.
+    const SceneParts more = read_pbrt(
+        "Material \"diffusetransmission\" \"rgb reflectance\" [0.6 0.2 0] \"rgb transmittance\" [0.6 0.6 0.3] \"float scale\" 2\n"
+        "Shape \"sphere\"");
+    const Bsdf& bsdf = more.bsdfs.at(static_cast<std::size_t>(more.sides_of_shape.at(0).front));
+    expect_near(eval(bsdf, {}, Vec3(0, 0, 1), Vec3(0, 0, 1)), inv_pi * Rgb(1.0, 0.4, 0.0), 1e-12, "reflected");
+    expect_near(eval(bsdf, {}, Vec3(0, 0, 1), Vec3(0, 0, -1)), inv_pi * Rgb(1.0, 1.0, 0.6), 1e-12, "let through");
+    EXPECT_EQ(warning(more), "diffusetransmission: reflectance and transmittance add up to more than 1, as pbrt renders it");
 }
 
 TEST_F(PbrtMaterials, MixturesAndInterfaces) {

@@ -124,7 +124,8 @@ TEST_F(TungstenMaterials, Sides) {
 TEST_F(TungstenMaterials, ByName) {
     Json file = scene_with("second");
     file["bsdfs"] = {{{"name", "first"}, {"type", "lambert"}, {"albedo", 0.25}},
-                     {{"name", "second"}, {"type", "mixed"}, {"bsdf0", "first"}, {"bsdf1", "first"}},
+                     {{"name", "second"}, {"type", "mixed"}, {"bsdf0", "first"}, {"bsdf1", "third"}},
+                     {{"name", "third"}, {"type", "lambert"}, {"albedo", 0.25}},
                      {{"name", "a.b $c"}, {"type", "null"}}};
     const std::string quarter = two_sided("<bsdf type='diffuse'><rgb name='reflectance' value='0.25'/></bsdf>");
     expect_same(file, "<shape type='rectangle'>" + to_world("<matrix value='0.5 0 0 0 0 0 1 0 0 0.5 0 0 0 0 0 1'/>") +

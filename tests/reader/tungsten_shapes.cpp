@@ -225,7 +225,8 @@ TEST_F(TungstenShapes, MeshesThatAreWrong) {
         write("square.wo3", bytes);
         return error_with(mesh(Json::object()));
     };
-    EXPECT_EQ(error_of_bytes(""), "square.wo3: the file ends after 0 bytes, before it says how many vertices follow");
+    EXPECT_EQ(error_of_bytes(""), "square.wo3: is empty, expected a file");
+    EXPECT_EQ(error_of_bytes("123"), "square.wo3: the file ends after 3 bytes, before it says how many vertices follow");
     EXPECT_EQ(error_of_bytes(right.substr(0, 100)), "square.wo3: the file ends after 100 bytes, but 4 vertices follow from byte 8");
     EXPECT_EQ(error_of_bytes(right.substr(0, 140)),
               "square.wo3: the file ends after 140 bytes, before it says how many triangles follow");

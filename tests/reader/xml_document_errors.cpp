@@ -14,7 +14,7 @@ TEST_F(XmlDocumentErrors, Utf16) {
     EXPECT_EQ(file_error("\xFE\xFF"), "scene.xml: is in UTF-16, expected UTF-8");
 }
 
-TEST_F(XmlDocumentErrors, EmptyFile) { EXPECT_EQ(file_error(""), "scene.xml:1:1: broken XML: No document element found"); }
+TEST_F(XmlDocumentErrors, EmptyFile) { EXPECT_EQ(file_error(""), "scene.xml: is empty, expected a scene file"); }
 
 TEST_F(XmlDocumentErrors, BrokenXml) {
     EXPECT_EQ(file_error("<scene version=\"3.0.0\">\n  <shape type=\"sphere\">\n</scene>\n"),

@@ -141,4 +141,40 @@ TEST_F(XmlMaterials, Principled) {
     EXPECT_EQ(eval(sheet.bsdfs.at(0), {}, up, up).g, 0.0);
 }
 
+// Thirty blends, each of two references to the one before. A mixture of a material and itself is that material; of materials that
+// differ there is an end to how many.
+TEST_F(XmlMaterials, NoDoublingWithoutEnd) {
+    const auto blends = [](const std::string& second_around) {
+        std::string all = "<bsdf type='diffuse' id='m0'/>\n";
+        for (int i = 1; i <= 30; ++i) {
+            const std::string ref = "<ref id='m" + std::to_string(i - 1) + "'/>";
+            all += "<bsdf type='blendbsdf' id='m" + std::to_string(i) + "'><float name='weight' value='0.5'/>" + ref +
+                   (second_around.empty() ? ref : "<bsdf type='" + second_around + "'>" + ref + "</bsdf>") + "</bsdf>\n";
+        }
+        return all + "<shape type='sphere'><ref id='m30'/></shape>";
+    };
+    const SceneParts parts = read(blends(""));
+    EXPECT_TRUE(std::holds_alternative<Diffuse>(parts.bsdfs.at(static_cast<std::size_t>(parts.sides_of_shape.at(0).front))));
+    EXPECT_TRUE(error(blends("mask"))
+                    .starts_with("scene.xml:19:1: bsdf 'blendbsdf' is a mixture of 131072 materials, expected at most 65536"))
+        << error(blends("mask"));
+}
+
+// By their ids, where they have one.
+TEST_F(XmlMaterials, ShapesAndMaterialsGoByTheirIds) {
+    const SceneParts parts = read(
+        "<bsdf type='twosided' id='white'><bsdf type='diffuse'/></bsdf><shape type='cube' id='table'><ref id='white'/></shape>"
+        "<shape type='sphere'><bsdf type='dielectric'/></shape>");
+    EXPECT_EQ(parts.origins.at(0).shape, "shape 'table'");
+    EXPECT_EQ(parts.origins.at(0).bsdf, "bsdf 'white'");
+    EXPECT_EQ(parts.origins.at(1).shape, "shape 'sphere'");
+    EXPECT_EQ(parts.origins.at(1).bsdf, "bsdf 'dielectric'");
+}
+
+TEST_F(XmlMaterials, SmoothOnesOfRoughOnes) {
+    for (const std::string type : {"conductor", "dielectric", "plastic"})
+        EXPECT_EQ(error("<bsdf type='rough" + type + "'>\n<float name='alpha' value='0'/></bsdf>"),
+                  "scene.xml:3:21: alpha is 0, expected at least 0.0001; bsdf '" + type + "' is smooth");
+}
+
 }  // namespace neumann::xml_materials_test

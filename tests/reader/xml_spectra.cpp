@@ -104,8 +104,8 @@ TEST_F(XmlSpectra, Errors) {
     EXPECT_EQ(error("<bsdf type='diffuse'>\n<spectrum name='reflectance' type='blackbody'><float name='temperature' "
                     "value='5000'/></spectrum></bsdf>"),
               "scene.xml:3:1: reflectance is a spectrum 'blackbody', which is for what gives off light");
-    EXPECT_EQ(radiance_error(object("rawconstant", "")),
-              "scene.xml:3:27: spectrum type 'rawconstant' is not supported; allowed: blackbody, d65, irregular, regular, uniform");
+    EXPECT_EQ(radiance_error(object("measured", "")),
+              "scene.xml:3:27: spectrum type 'measured' is not supported; allowed: blackbody, d65, irregular, regular, uniform");
     EXPECT_EQ(radiance_error(object("irregular", "<string name='wavelengths' value='1 2'/><string name='values' value='1'/>")),
               "scene.xml:3:106: values has 1 numbers, expected 2, as wavelengths has");
     EXPECT_EQ(radiance_error(object("regular", "<string name='values' value='1'/>")),

@@ -375,4 +375,32 @@ TEST_F(XmlTextures, NormalAndBumpMapErrors) {
               "use_shadowing_function");
 }
 
+// In Mitsuba 3 <texture> and <spectrum> with a type are the same.
+TEST_F(XmlTextures, TexturesAndSpectraAreTheSame) {
+    const std::string inside = "<string name='filename' value='four.png'/>";
+    const SceneParts as_texture = rectangle(bitmap("four.png")),
+                     as_spectrum = rectangle("<spectrum name='reflectance' type='bitmap'>" + inside + "</spectrum>");
+    for (const double u : {0.1, 0.3, 0.6, 0.9}) EXPECT_EQ(at(as_spectrum, u, 0.4), at(as_texture, u, 0.4)) << u;
+    EXPECT_EQ(at(rectangle("<spectrum name='reflectance' type='checkerboard'/>"), 0.2, 0.2),
+              at(rectangle("<texture name='reflectance' type='checkerboard'/>"), 0.2, 0.2));
+    const std::string half = " name='reflectance' type='uniform'><float name='value' value='0.25'/></";
+    EXPECT_EQ(at(rectangle("<texture" + half + "texture>"), 0.0, 0.0), at(rectangle("<spectrum" + half + "spectrum>"), 0.0, 0.0));
+    // With an id, for several materials.
+    const SceneParts shared =
+        read("<spectrum type='bitmap' id='four'>" + inside +
+             "</spectrum><shape type='rectangle'><bsdf type='diffuse'><ref id='four' name='reflectance'/></bsdf></shape>");
+    EXPECT_EQ(at(shared, 0.3, 0.4), at(as_texture, 0.3, 0.4));
+}
+
+// Each stands twice in the next: a picture a thousand textures deep would be asked for ever.
+TEST_F(XmlTextures, NoDoublingWithoutEnd) {
+    std::string all = "<texture type='checkerboard' id='t0'/>\n";
+    for (int i = 1; i <= 30; ++i)
+        all += "<texture type='checkerboard' id='t" + std::to_string(i) + "'><ref name='color0' id='t" + std::to_string(i - 1) +
+               "'/><ref name='color1' id='t" + std::to_string(i - 1) + "'/></texture>\n";
+    EXPECT_NE(error(all + "<shape type='cube'><bsdf type='diffuse'><ref name='reflectance' id='t30'/></bsdf></shape>")
+                  .find("a texture is made of more than 1024 textures"),
+              std::string::npos);
+}
+
 }  // namespace neumann::xml_textures_test

@@ -115,7 +115,7 @@ TEST_F(XmlTransparent, ShapesKeepTheirOrigins) {
     ASSERT_EQ(parts.origins.size(), 2u);
     EXPECT_EQ(parts.origins[0].place.line, 3);
     EXPECT_EQ(parts.origins[0].shape, "shape 'cube'");
-    EXPECT_EQ(parts.origins[0].bsdf, "bsdf 'null'");
+    EXPECT_EQ(parts.origins[0].bsdf, "bsdf 'n'");
     EXPECT_EQ(parts.origins[1].bsdf, "default bsdf");
 }
 

@@ -188,11 +188,66 @@ TEST_F(XmlUpgrade, WhatMitsubaLeavesIsRefused) {
     EXPECT_EQ(version_error("0.6.0",
                             sensor + "<bsdf type='diffuse'>\n<spectrum name='reflectance' value='1' intent='reflectance'/></bsdf>"),
               "scene.xml:3:40: unknown attribute 'intent' of <spectrum>; allowed: name, value, filename, type");
-    EXPECT_EQ(version_error("0.6.0",
-                            "<sensor type='perspective'><float name='fov' value='40'/></sensor>"
-                            "<bsdf type='diffuse'>\n<spectrum name='reflectance' value='0.1, 0.2, 0.3'/></bsdf>"),
-              "scene.xml:3:30: '0.1, 0.2, 0.3' is not a number");
     EXPECT_EQ(version_error("0.3.0", ""), "scene.xml:1:8: scene version 0.3.0 is not known, expected 0.4 to 3.x");
+}
+
+// Mitsuba 0.6 sees everything under equal energy, where a surface that reflects 0.78 of all wavelengths is not grey in sRGB.
+TEST_F(XmlUpgrade, SpectraUnderEqualEnergy) {
+    const std::string grey = "400:0.78, 700:0.78";
+    const auto parts = [&](const std::string& version, const std::string& value) {
+        return read_version(version,
+                            "<sensor type='perspective'><float name='fov' value='40'/></sensor>"
+                            "<emitter type='point'><spectrum name='intensity' value='" +
+                                value +
+                                "'/></emitter><shape type='sphere'><bsdf type='diffuse'><spectrum name='reflectance' value='" +
+                                value + "'/></bsdf></shape>");
+    };
+    const auto reflectance = [](const SceneParts& p) { return largest_albedo(p.bsdfs.at(0)); };
+    const auto intensity = [](const SceneParts& p) {
+        return std::visit([](const auto& light) { return light.beam(Vec3(0, 0, 1), {}).irradiance; }, p.lights.delta.at(0));
+    };
+    const SceneParts old = parts("0.5.0", grey), now = parts("3.0.0", grey);
+    const Rgb equal(0.936461, 0.740433, 0.705267);  // of Mitsuba, as in spectrum_to_rgb.cpp
+    for (int c = 0; c < 3; ++c) {
+        EXPECT_NEAR(reflectance(old)[c], equal[c], 8e-4);
+        EXPECT_EQ(intensity(old)[c], intensity(now)[c]);
+    }
+    EXPECT_LT(reflectance(now).r, 0.8);
+    EXPECT_EQ(old.warnings.counts().count("old scene file: a spectrum taken as its colour under equal energy, as Mitsuba 0.6 does"),
+              1u);
+    // One value is that of all three channels, of light, too.
+    EXPECT_EQ(reflectance(parts("0.6.0", "0.25")), Rgb(0.25));
+    EXPECT_EQ(intensity(parts("0.6.0", "0.25")), Rgb(0.25));
+    EXPECT_NE(intensity(parts("3.0.0", "0.25")), Rgb(0.25));
+    EXPECT_EQ(reflectance(parts("0.6.0", "0.1, 0.2, 0.3")), Rgb(0.1, 0.2, 0.3));
+}
+
+// What changes nothing here, or has a new name.
+TEST_F(XmlUpgrade, ParametersOfOldVersions) {
+    const auto sensor = [](const std::string& inside) {
+        return "<sensor type='perspective'><float name='fov' value='40'/>" + inside + "</sensor>";
+    };
+    EXPECT_EQ(read_version("0.5.0", sensor("<sampler type='ldsampler'><integer name='sampleCount' value='64'/>"
+                                           "<integer name='dimension' value='4'/></sampler>"))
+                  .sampler,
+              SamplerKind::sobol);
+    const std::string film = "<film type='hdrfilm'><boolean name='high_quality_edges' value='true'/></film>";
+    for (const std::string version : {"2.0.0", "2.1.0", "2.2.1"})
+        EXPECT_TRUE(read_version(version, sensor(film)).film.sample_border) << version;
+    EXPECT_EQ(version_error("3.0.0", sensor(film)).substr(0, 71),
+              "scene.xml:2:88: unknown parameter 'high_quality_edges' of film 'hdrfilm");
+    write("roof.obj", "v 0 0 0\nv 1 0 0\nv 1 1 1\nv 0 1 1\nv 1 2 0\nv 0 2 0\nf 1 2 3 4\nf 4 3 5 6\n");
+    const auto roof = [&](const std::string& angle) {
+        return read_version("0.6.0",
+                            sensor("") +
+                                "<shape type='obj'><string name='filename' value='roof.obj'/><float name='maxSmoothAngle' value='" +
+                                angle + "'/></shape>");
+    };
+    EXPECT_TRUE(std::get<TriangleMesh>(roof("0").shapes.at(0)).normals.empty());
+    EXPECT_FALSE(std::get<TriangleMesh>(roof("45").shapes.at(0)).normals.empty());
+    EXPECT_EQ(roof("45").warnings.counts().count(
+                  "old scene file: maxSmoothAngle of a shape left out: all of its edges are smooth, or as its normals have them"),
+              1u);
 }
 
 TEST_F(XmlUpgrade, ColoursOfVertices) {

@@ -1,5 +1,6 @@
 """Keywords as the options of the command, which checks them and says what is wrong."""
 
+import difflib
 import inspect
 from typing import Any, Callable, Dict, List, Mapping, TypeVar
 
@@ -8,6 +9,7 @@ from ._method_options import HELP, MethodOptions
 from ._texts import text
 
 _short = {"bounces": "-n", "threads": "-t", "output": "-o"}
+_of_scenes = ("res", "resolution", "size", "width", "height")
 _no_options = ("self", "quiet", "live", "of_method", "of_patches")
 
 
@@ -27,6 +29,9 @@ def options(keywords: Dict[str, Any]) -> List[str]:
     return result
 
 
+# The keywords of functions that take some as ``**Unpack[…]``, by the function's name.
+_keywords: Dict[str, List[str]] = {}
+
 _Function = TypeVar("_Function", bound=Callable[..., Any])
 
 
@@ -39,6 +44,7 @@ def with_keywords(table: Any) -> Callable[[_Function], _Function]:
         for name, annotation in table.__annotations__.items():
             keywords.append(inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=None, annotation=annotation))
         function.__signature__ = own.replace(parameters=keywords)  # type: ignore[attr-defined]
+        _keywords[function.__name__] = [p.name for p in keywords if p.kind is p.KEYWORD_ONLY]
         return function
 
     return named
@@ -51,10 +57,15 @@ def with_method_options(function: _Function) -> _Function:
 
 
 def checked(given: Mapping[str, Any], table: Any, function: str) -> Dict[str, Any]:
-    """What is given. Raises TypeError for a name that is not in the TypedDict, as Python does for its own keywords."""
+    """What is given. Raises TypeError for a name that is not in the TypedDict, as Python does for its own keywords, with the nearest."""
     for name in given:
-        if name not in table.__annotations__:
-            raise TypeError(f"{function}() got an unexpected keyword argument '{name}'")
+        if name in table.__annotations__:
+            continue
+        near = difflib.get_close_matches(name, _keywords.get(function, []), 1)
+        hint = f"; did you mean '{near[0]}'?" if near else ""
+        if name in _of_scenes:
+            hint = f"; sizes are defined by scenes: load(…, {name}=…)"
+        raise TypeError(f"{function}() got an unexpected keyword argument '{name}'{hint}")
     return dict(given)
 
 

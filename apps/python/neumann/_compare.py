@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from . import _neumann
 from ._bounces import Bounce, BounceSeries, read
+from ._numbers import real
 from ._report import Report
 from ._sources import Pictures
 
@@ -19,7 +20,7 @@ def _picture(x: "Comparable") -> Optional[Pictures]:
         return None if Path(x).is_dir() else _neumann.read(fspath(x))
     if isinstance(x, Bounce):
         return x._pictures
-    return None if isinstance(x, BounceSeries) else (np.asarray(x), None, None, None, None)
+    return None if isinstance(x, BounceSeries) else (real(x, "a picture", finite=False), None, None, None, None)
 
 
 AnyPicture = Union[Bounce, NDArray[Any], str, "PathLike[str]"]

@@ -1,12 +1,13 @@
 """Scenes as Mitsuba's dictionaries: the elements of the scene file that says the same."""
 
 import difflib
-from typing import Any, Dict, List, Mapping, NamedTuple, Sequence, Tuple
+from typing import Any, Callable, Dict, List, Mapping, NamedTuple, Sequence, Tuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from ._neumann import InputError
+from ._numbers import real, whole
 
 _plugins = {
     "shape": "obj ply serialized rectangle cube disk sphere cylinder linearcurve bsplinecurve shapegroup instance merge",
@@ -34,12 +35,11 @@ class Parsed(NamedTuple):
     meshes: Dict[str, Tuple[NDArray[Any], ...]]
 
 
-def _numbers(values: ArrayLike) -> str:
-    return ", ".join(repr(float(x)) for x in np.asarray(values, dtype=float).ravel())
+def _numbers(values: NDArray[np.float64]) -> str:
+    return ", ".join(repr(float(x)) for x in values.ravel())
 
 
-def _matrix(value: Any) -> NDArray[np.float64]:
-    m = np.asarray(value, dtype=float)
+def _matrix(m: NDArray[np.float64]) -> NDArray[np.float64]:
     if m.shape == (3, 3):  # of texture coordinates
         m = np.block([[m[:2, :2], np.zeros((2, 1)), m[:2, 2:]], [0, 0, 1, 0], [m[2:, :2], 0, m[2:, 2:]]])
     return m
@@ -58,18 +58,18 @@ def value_of(value: Any, where: str, triple: str) -> Tuple[str, str]:
     if isinstance(value, Mapping) and value.get("type") == "rgb":
         if set(value) - {"type", "id"} != {"value"}:
             raise InputError(f"{where}: expected {{'type': 'rgb', 'value': …}} with nothing else")
-        colour = np.asarray(value["value"], dtype=float)
+        colour = real(value["value"], where)
         if colour.size not in (1, 3):
             raise InputError(f"{where}: a colour of {colour.size} numbers, expected one or three")
         return "rgb", _numbers(colour)
     try:
-        array = np.asarray(getattr(value, "matrix", value), dtype=float)  # Mitsuba's transforms have a matrix
-    except (TypeError, ValueError):
+        array = np.asarray(getattr(value, "matrix", value))  # Mitsuba's transforms have a matrix
+    except ValueError:  # rows of different lengths
         array = np.array(None)
     if array.shape == (3,):
-        return triple, _numbers(array)
+        return triple, _numbers(real(array, where))
     if array.shape in ((3, 3), (4, 4)):
-        return "transform", _numbers(_matrix(array))
+        return "transform", _numbers(_matrix(real(array, where)))
     raise InputError(
         f"{where}: {type(value).__name__}, expected a number, a text, True or False, three numbers, a 4 × 4 matrix or a dictionary with 'type'"
     )
@@ -129,7 +129,7 @@ class _Parser:
             return "spectrum", [("name", key), ("filename", str(value["filename"]))], [], path
         if rest != {"value"}:
             raise InputError(f"{self._where(path)}: expected {{'type': 'spectrum'}} with 'value' or 'filename'")
-        numbers = np.asarray(value["value"], dtype=float)
+        numbers = real(value["value"], f"{self._where(path)}/value")
         if numbers.ndim == 2 and numbers.shape[1] == 2:
             text = ", ".join(f"{float(nm)!r}:{float(x)!r}" for nm, x in numbers)
         elif numbers.size == 1:
@@ -141,14 +141,13 @@ class _Parser:
     def _mesh(self, key: str, value: Mapping[str, Any], path: str, is_top: bool) -> Element:
         arrays = {name: value[name] for name in ("vertices", "faces", "normals", "uv") if name in value}
 
-        def array(name: str, columns: int, kind: Any) -> NDArray[Any]:
-            found = np.asarray(arrays.get(name, np.empty((0, columns))))
+        def array(name: str, columns: int, numbers: Callable[..., NDArray[Any]] = real) -> NDArray[Any]:
+            found = numbers(arrays.get(name, np.empty((0, columns))), f"{self._where(path)}/{name}")
             if found.ndim != 2 or found.shape[1] != columns:
                 raise InputError(f"{self._where(path)}/{name}: an array {found.shape}, expected (n, {columns})")
-            return np.ascontiguousarray(found, dtype=kind)
+            return np.ascontiguousarray(found)
 
-        vertices, uv, normals = array("vertices", 3, float), array("uv", 2, float), array("normals", 3, float)
-        faces = array("faces", 3, np.int64)
+        vertices, uv, normals, faces = array("vertices", 3), array("uv", 2), array("normals", 3), array("faces", 3, whole)
         if not len(vertices) or not len(faces):
             raise InputError(f"{self._where(path)}: a mesh without {'faces' if len(vertices) else 'vertices'}")
         if faces.min() < 0 or faces.max() >= len(vertices):
@@ -179,7 +178,7 @@ def edits_of(changes: Mapping[str, Any]) -> List[Tuple[str, str, str]]:
 
 def look_at(origin: Sequence[float], target: Sequence[float], up: Sequence[float] = (0.0, 1.0, 0.0)) -> NDArray[np.float64]:
     """The pose of a camera, or of a lamp, as a 4 × 4 matrix: at the origin, looking at the target, as Mitsuba's look_at."""
-    o, t = np.asarray(origin, dtype=float), np.asarray(target, dtype=float)
+    o, t = real(origin, "origin"), real(target, "target")
     forward, left = t - o, np.cross(up, t - o)
     if not np.linalg.norm(left) > 0.0:
         raise InputError("look_at: origin, target and up lie on a line, expected directions that differ")

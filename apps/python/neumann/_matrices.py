@@ -11,6 +11,7 @@ from scipy.sparse.linalg import LinearOperator
 
 from . import _neumann, _report
 from ._display import as_table
+from ._numbers import real
 from ._patched import Patched, Vector
 from ._petsc import write_matrix, write_vector
 from ._progress import run
@@ -95,8 +96,12 @@ def _operator(K: Matrix, measure: Optional[ArrayLike]) -> "_neumann.Operator":
             raise _neumann.InputError("measure: the K of scene.operators() has its own")
         return K.compiled
     sparse = scipy.sparse.issparse(K)
-    K = scipy.sparse.csr_matrix(K, dtype=float) if sparse else np.ascontiguousarray(K, dtype=float)
-    m = np.ones(K.shape[0]) if measure is None else np.asarray(measure, dtype=float)
+    if sparse:
+        K = scipy.sparse.csr_matrix(K)
+        K = scipy.sparse.csr_matrix((real(K.data, "the entries of K"), K.indices, K.indptr), shape=K.shape)
+    else:
+        K = np.ascontiguousarray(real(K, "K"))
+    m = np.ones(K.shape[0]) if measure is None else real(measure, "measure")
     return _neumann.sparse(K, m) if sparse else _neumann.dense(K, m)
 
 
@@ -125,7 +130,7 @@ def series(
     enclosure: exists, why not, low and high (n,), between which L lies, width, c1, c2 (Collatz and Wielandt's quotients).
     """
     operator = _operator(K, measure)
-    made = run(_neumann.series(operator, np.asarray(Le, dtype=float), error, most, norm), quiet)
+    made = run(_neumann.series(operator, real(Le, "Le"), error, most, norm), quiet)
     if not quiet:
         _report.warn(made["warnings"])
     made["rows"] = _report.rows(made["rows"], _bounds)
@@ -185,8 +190,9 @@ def solve(
     seconds. Of several solvers: Solutions, these by name, and with "lu" among them the error of each to it. Raises InputError for an unknown solver.
     """
     operator = _operator(K, measure)
-    light = np.asarray(Le, dtype=float)
-    rho, L = (None if x is None else np.asarray(x, dtype=float) for x in (reflectance, exact))
+    light = real(Le, "Le")
+    rho = None if reflectance is None else real(reflectance, "reflectance")
+    L = None if exact is None else real(exact, "exact")
 
     def one(name: str) -> Report:
         job = _neumann.solve_one(name, operator, light, error, most, radius, lowest, rho, L)

@@ -1,6 +1,6 @@
 """The compiled part: see the package neumann, which is what to use."""
 
-from typing import Any, Dict, List, Optional, Tuple
+from typing import Any, Dict, List, Optional, Tuple, Union
 
 import numpy as np
 import scipy.sparse
@@ -104,7 +104,7 @@ class LightPoints:
     def take(self, numbers: NDArray[np.int64]) -> "LightPoints": ...
     def __len__(self) -> int: ...
 
-def load(path: str, definitions: Dict[str, str], lenient: bool) -> Scene: ...
+def load(path: Union[str, bytes], definitions: Dict[str, str], lenient: bool) -> Scene: ...
 def load_elements(
     name: str, root: Tuple[Any, ...], meshes: Dict[str, Tuple[NDArray[Any], ...]], text: str, lenient: bool
 ) -> Scene: ...

@@ -71,6 +71,7 @@ class OnPatches:
     def spectrum(
         self,
         *,
+        channel: Optional[Channel] = None,
         eigenvalues: Optional[int] = None,
         time: Optional[float] = None,
         most: Optional[int] = None,
@@ -79,7 +80,7 @@ class OnPatches:
     ) -> Report:
         """Norms and leading eigenvalues of K, whether and how fast the series ends, rounding: what ``neumann spectrum --json`` prints.
 
-        eigenvalues: how many, 4 without it. time: seconds to look for them, 60 without it; most: applications of K of a search, 10000.
+        channel: r, g or b; without it all that differ. eigenvalues: how many, 4 without it. time: seconds to look for them, 60 without it; most: applications of K of a search, 10000.
         The others are as of ``matrices()``. Each of the Report's ``channels`` has ``spectral_radius``, ``series`` ("converges" …),
         ``norms`` ("inf" of radiance, "1" of power, with ``norm_1_standard_error`` by the rays, and "2"), ``eigenvalues`` (k,) complex, by
         falling modulus, ``eigenvectors`` (unknowns, k), on the unknowns of ``matrices()`` with the same patches, directions and seed,

@@ -2,7 +2,7 @@
 
 import tempfile
 from hashlib import sha256
-from os import PathLike, fspath
+from os import PathLike, fsencode
 from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple, Union, Unpack
 
 from . import _neumann, _report
@@ -260,7 +260,7 @@ def load(path: Path, *, lenient: bool = False, **overrides: Any) -> Scene:
     With ``lenient`` what is not known is no error: materials become grey and diffuse, lights, shapes and parameters are left out, each is
     named in a warning and in ``replaced``, and pictures are marked.
     """
-    scene = _neumann.load(fspath(path), definitions(overrides), lenient)
+    scene = _neumann.load(fsencode(path), definitions(overrides), lenient)
     warn(scene.warnings)
     return Scene(scene)
 

@@ -7,6 +7,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _neumann, _report
 from ._display import Described, as_table
+from ._numbers import real
 from ._progress import run
 from ._report import Report
 
@@ -88,23 +89,23 @@ def unbounce(
     errors. Raises InputError.
     """
 
-    def stack(given: Optional[ArrayLike]) -> Optional[NDArray[np.float64]]:
+    def stack(given: Optional[ArrayLike], what: str) -> Optional[NDArray[np.float64]]:
         if given is None:
             return None
-        array = np.asarray(given, dtype=float)
+        array = real(given, what, finite=False)
         return np.repeat(array.T[:, None, :, None], 3, axis=3) if array.ndim == 2 else array
 
-    T = np.asarray(pictures, dtype=float)
+    T = real(pictures, "pictures", finite=False)
     if T.ndim == 2 and regions is None:
         regions = np.arange(T.shape[0])[None, :]
     job = _neumann.unbounce(
-        stack(pictures),
-        stack(stderr),
-        stack(direct),
-        stack(direct_stderr),
+        stack(pictures, "pictures"),
+        stack(stderr, "stderr"),
+        stack(direct, "direct"),
+        stack(direct_stderr, "direct_stderr"),
         forward,
         forward_stderr,
-        None if picture is None else np.repeat(np.asarray(picture, dtype=float)[None, :, None], 3, axis=2) if T.ndim == 2 else picture,
+        None if picture is None else np.repeat(real(picture, "picture", finite=False)[None, :, None], 3, axis=2) if T.ndim == 2 else picture,
         regions,
         lights,
         bounces,

@@ -16,14 +16,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <limits>
 #include <numeric>
 #include <sstream>
-#include <system_error>
 
 namespace neumann {
 namespace {
@@ -119,16 +117,6 @@ Texels read_channels(OIIO::ImageInput& input, const std::string& path, const std
     return texels;
 }
 
-// The system's word on a file that cannot be read; OpenImageIO's differs by version and format.
-void expect_readable(const std::string& path) {
-    errno = 0;
-    std::ifstream file(path, std::ios::binary);
-    if (file) file.peek();
-    if (file.bad() || !file.is_open()) {
-        throw InputError(fmt::format("{}: cannot be read: {}", path, std::generic_category().message(errno != 0 ? errno : EIO)));
-    }
-}
-
 // Damaged headers speak of sizes that no memory holds. Of the formats, those that pack plain surfaces best (OpenEXR's DWAB: 256
 // rows in some hundred bytes) stay below 1 : 65,536.
 void expect_possible_size(const OIIO::ImageSpec& spec, std::uint64_t file_bytes, const std::string& name) {
@@ -165,7 +153,6 @@ std::unique_ptr<OIIO::ImageInput> open_picture(const std::string& name, std::ist
 }
 
 std::unique_ptr<OIIO::ImageInput> open_picture(const std::string& path) {
-    expect_readable(path);
     std::ifstream file(path, std::ios::binary);
     std::error_code ignored;
     return open_picture(path, file, std::filesystem::file_size(path, ignored), nullptr);

@@ -73,7 +73,7 @@ public:
             const double half_width = read_orthographic(required_child(optics, "orthographic"));
             to_world = glm::scale(to_world, Vec3(half_width, half_width, 1.0));
         }
-        if (camera.is_placed) add_clipping(perspective ? *perspective : required_child(optics, "orthographic"));
+        if (as_in_file_) add_clipping(perspective ? *perspective : required_child(optics, "orthographic"));
         warn_of_shift(*camera.element);
         finish(to_world, camera.node->place);
     }
@@ -87,24 +87,27 @@ public:
     }
 
 private:
-    Mat4 place(const Instance& camera, const Bounds& scene) const {
-        const bool of_course = import_.file.is_of_course() && !scene.is_empty();
-        const std::optional<Vec3> direction = of_course ? course_direction(camera) : std::nullopt;
+    // The view of the course's program, in its files, unless -D camera=file asks for the file's.
+    Mat4 place(const Instance& camera, const Bounds& scene) {
+        const bool of_course = import_.file.is_of_course() && !scene.is_empty() && !asks_for_file();
+        if (const std::optional<Vec3> direction = of_course ? course_direction(camera) : std::nullopt) {
+            import_.warnings.add(
+                camera.is_placed ? "the camera's direction is the file's, and it stands where it sees the whole scene, as in the "
+                                   "course's program; -D camera=file takes its place, too"
+                                 : "the camera's matrix is broken; the whole scene is seen, as in the course's program");
+            return view_of(scene, *direction, up_);
+        }
         if (!camera.is_placed) {
-            if (direction) {
-                import_.warnings.add(
-                    "the camera's matrix is broken; the whole scene is seen instead, from where the course's program sees it");
-                return view_of(scene, *direction, up_);
-            }
             read_transforms(*camera.node);  // tells what is wrong
             throw InputError(camera.node->place, "the camera cannot be placed");
         }
-        if (direction)
-            import_.warnings.add(
-                fmt::format("the course's program takes only a direction from the camera and sees the whole scene; "
-                            "its view: -D camera=\"{}\"",
-                            matrix_text(view_of(scene, *direction, up_))));
+        as_in_file_ = true;
         return rigid(camera, import_);
+    }
+
+    bool asks_for_file() const {
+        const auto given = import_.definitions.find("camera");
+        return given != import_.definitions.end() && given->second == "file";
     }
 
     void read_perspective(const Element& e) {
@@ -156,7 +159,12 @@ private:
         add_film(root, sensor_, aspect_, place, import_.definitions);
         Element sampler = make_object("sampler", "multijitter", place);
         add_defined(root, sampler, "integer", "sample_count", "spp", "64", place);
-        add_defined_matrix(root, sensor_, "to_world", "camera", to_world, place);
+        if (asks_for_file()) {
+            import_.scene.used.insert("camera");
+            add_matrix(sensor_, "to_world", to_world, place);
+        } else {
+            add_defined_matrix(root, sensor_, "to_world", "camera", to_world, place);
+        }
         reader::add(sensor_, std::move(sampler));
         reader::add(root, std::move(sensor_));
     }
@@ -165,6 +173,7 @@ private:
     const Import& import_;
     Element sensor_;
     double aspect_ = usual_aspect;  // width / height
+    bool as_in_file_ = false;       // where it stands, and so what clips
 };
 
 }  // namespace

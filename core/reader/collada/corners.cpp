@@ -53,7 +53,7 @@ private:
     }
 
     void add_polygon(std::size_t first, std::size_t count) {
-        if (count > 3) corners_.polygons.push_back({first, count, corners_.triangles.size()});
+        if (count > 3) corners_.fans.push_back({corners_.triangles.size(), count});
         add_fan(first, count);
     }
 

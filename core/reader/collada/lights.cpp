@@ -4,6 +4,7 @@
 #include "core/reader/collada/spot.h"
 #include "core/reader/collada/texts.h"
 #include "core/reader/import/make_elements.h"
+#include "core/reader/xml/transform.h"
 
 #include <algorithm>
 #include <array>
@@ -43,6 +44,8 @@ public:
         const Element& kind = technique.children.front();
         if (std::ranges::find(kinds, kind.tag) == kinds.end()) return;  // which is told
         check_children(kind, parts_of_kind, import_.problems);
+        if ((kind.tag == "directional" || kind.tag == "spot") && !is_invertible(instance.to_world))
+            throw InputError(instance.node->place, "the node of a light scales it to 0: it does not tell where the light shines");
         const Rgb color = read_color(required_child(kind, "color")).rgb;
         if (kind.tag == "directional") add_directional(instance, kind, color);
         if (kind.tag == "point") add_point_light(instance, kind, color);

@@ -1,9 +1,9 @@
 #include "core/reader/collada/meshes.h"
 
 #include "core/reader/collada/corners.h"
-#include "core/reader/collada/polygons.h"
 #include "core/reader/collada/sources.h"
 #include "core/reader/collada/texts.h"
+#include "core/reader/meshes/polygons.h"
 
 #include <algorithm>
 #include <array>
@@ -131,22 +131,6 @@ std::uint32_t index_of(const std::optional<Input>& input, const std::uint32_t* c
 
 Vec3 vector_at(const Source& s, std::size_t i) { return {s.at(i, 0), s.at(i, 1), s.at(i, 2)}; }
 
-// In place of fans.
-void cut_concave_polygons(Corners& corners, const std::optional<Input>& position, const Element& primitive) {
-    std::vector<Vec3> outline;
-    for (const Polygon& polygon : corners.polygons) {
-        outline.clear();
-        for (std::size_t i = polygon.first_corner; i < polygon.first_corner + polygon.count; ++i)
-            outline.push_back(
-                vector_at(position->source, index_of(position, corners.indices.data() + i * corners.stride, primitive)));
-        std::size_t at = polygon.first_triangle;
-        for (const auto& [a, b, c] : cut_ears(outline)) {
-            const auto corner = [&](std::size_t i) { return static_cast<std::uint32_t>(polygon.first_corner + i); };
-            corners.triangles[at++] = {corner(a), corner(b), corner(c)};
-        }
-    }
-}
-
 const std::array<std::string, 6> parts_of_primitive = {"extra", "input", "p", "param", "ph", "vcount"};
 
 }  // namespace
@@ -157,7 +141,10 @@ std::shared_ptr<const MeshFile> read_mesh(const Element& mesh, const Element& pr
     const Inputs inputs = InputReader(mesh, primitive, coordinates).read();
     Corners corners = read_corners(primitive, inputs.stride);
     if (corners.triangles.empty()) return nullptr;
-    cut_concave_polygons(corners, inputs.position, primitive);
+    cut_fans(corners.fans, corners.triangles, [&](std::uint32_t corner) {
+        return vector_at(inputs.position->source,
+                         index_of(inputs.position, corners.indices.data() + corner * corners.stride, primitive));
+    });
 
     auto result = std::make_shared<MeshFile>();
     TriangleMesh& made = result->mesh;

@@ -65,11 +65,7 @@ public:
         for (const Element& e : node.children) {
             if (e.tag == "node") read(e, around);
             if (e.tag == "instance_node") problems_.attempt(e.place, [&] { read_instance_node(e, around); });
-            if (e.tag == "instance_controller")
-                problems_.add(
-                    Unknown(e.place, "<instance_controller> is not supported",
-                            ": a skin or morph of a mesh; expected the posed mesh, exported as <instance_geometry>", "left out"),
-                    e.place);
+            if (e.tag == "instance_controller") problems_.attempt(e.place, [&] { take_unbent(e, around); });
             if (e.tag == "instance_geometry") add(nodes.geometries, e, "geometry", around);
             if (e.tag == "instance_light") add(nodes.lights, e, "light", around);
             if (e.tag == "instance_camera") add(nodes.cameras, e, "camera", around);
@@ -97,6 +93,27 @@ private:
             around.element = &file_.find(url, tag);
             list.push_back(around);
         });
+    }
+
+    // What a lenient reader does with a skin: the mesh as it was bound to its joints. A morph is left out.
+    void take_unbent(const Element& use, Instance around) {
+        const auto fail = [&](const std::string& instead) {
+            return Unknown(use.place, "<instance_controller> is not supported",
+                           ": a skin or morph of a mesh; expected the posed mesh, exported as <instance_geometry>", instead);
+        };
+        if (!problems_.lenient()) throw fail("");
+        const auto known = [&](const Attribute& url, const char* tag) {
+            return file_.known(url.value.substr(url.value.starts_with('#') ? 1 : 0), tag);
+        };
+        const Element* controller = known(required_attribute(use, "url"), "controller");
+        const Element* skin = controller ? child(*controller, "skin") : nullptr;
+        const Attribute* source = skin ? skin->find("source") : nullptr;
+        if (!source || !known(*source, "geometry")) throw fail("left out");
+        problems_.replace(fail("its mesh is taken unbent"), use.place);
+        if (const Element* bound = child(*skin, "bind_shape_matrix")) around.to_world = around.to_world * read_matrix(*bound);
+        around.use = &use;
+        around.element = &file_.find(*source, "geometry");
+        nodes.geometries.push_back(around);
     }
 
     void read_instance_node(const Element& e, const Instance& around) {

@@ -26,6 +26,9 @@ struct SceneNodes {
 // Adds what is wrong to the problems and leaves it out. Throws InputError if there is no scene, or more than 2¹⁸ instances.
 SceneNodes read_nodes(const File& file, Warnings& warnings, Problems& problems);
 
+// Of a <matrix>. Throws InputError.
+Mat4 read_matrix(const Element& e);
+
 // The product of a node's transforms, in their order. Throws InputError.
 Mat4 read_transforms(const Element& node);
 

@@ -5,7 +5,9 @@
 #include "core/reader/collada/materials.h"
 #include "core/reader/collada/meshes.h"
 #include "core/reader/collada/texts.h"
+#include "core/reader/import/flattened.h"
 #include "core/reader/import/make_elements.h"
+#include "core/reader/xml/transform.h"
 
 #include <algorithm>
 #include <array>
@@ -57,7 +59,7 @@ public:
         for (const Placed& placed : all) ++places[part(placed)];
         std::set<Part> groups;
         for (Placed& placed : all)
-            if (!placed.mesh || placed.bound.emitter || places[part(placed)] == 1) {
+            if (!is_shared(placed, places[part(placed)])) {
                 add_alone(std::move(placed));
             } else {
                 const bool is_first = groups.insert(part(placed)).second;
@@ -84,6 +86,11 @@ private:
         Mesh* mesh = nullptr;  // null: a sphere
     };
 
+    // Several at once, and not as one that a map without an inverse has moved.
+    bool is_shared(const Placed& placed, int places) const {
+        return placed.mesh && !placed.bound.emitter && places > 1 && is_invertible(placed.instance->to_world);
+    }
+
     static const Element* radius_of_sphere(const Element& geometry) {
         const Element* technique = course_technique(geometry);
         const Element* sphere = technique ? child(*technique, "sphere") : nullptr;
@@ -92,6 +99,8 @@ private:
 
     void add_sphere(const Instance& instance, const Element& radius) {
         const double r = read_number(radius);
+        if (!is_invertible(instance.to_world))
+            throw InputError(instance.node->place, "the node of a sphere scales it to 0 or flattens it, which only meshes can be");
         const Bound bound = materials_.bound(*instance.use, nullptr);
         Placed sphere{make_object("shape", "sphere", instance.use->place), &instance, bound};
         add_float(sphere.shape, "radius", r, radius.place);
@@ -124,7 +133,8 @@ private:
         const Instance& instance = *part.instance;
         Mesh& made = *part.mesh;
         const Location& place = made.primitive->place;
-        if (made.name.empty()) add_to_files(made, required_attribute(*instance.element, "id").value);
+        const std::string& id = required_attribute(*instance.element, "id").value;
+        if (made.name.empty()) made.name = add_to_files(made, made.file, id);
         const TriangleMesh& triangles = made.file->mesh;
 
         if (part.bound.emitter && is_on_a_lamp(triangles, instance)) {
@@ -133,24 +143,34 @@ private:
                 required_attribute(*instance.element, "id").value));
             return false;
         }
-        add_string(part.shape, "filename", made.name, place);
-        if (made.is_flat()) add_boolean(part.shape, "face_normals", true, place);
+        std::optional<MeshFile> flat;
+        const bool is_laid_flat = !is_invertible(instance.to_world);
+        if (is_laid_flat && !(flat = flattened(*made.file, instance.to_world))) {
+            import_.warnings.add("a geometry that its node scales to nothing is left out");
+            return false;
+        }
+        add_string(part.shape, "filename",
+                   flat ? add_to_files(made, std::make_shared<const MeshFile>(std::move(*flat)), id) : made.name, place);
+        if (made.is_flat() || is_laid_flat) add_boolean(part.shape, "face_normals", true, place);
         if (!triangles.uv.empty()) add_boolean(part.shape, "flip_tex_coords", true, place);
         for (const Vec3& v : triangles.vertices) bounds.add(transformed_point(instance.to_world, v));
         return true;
     }
 
-    void add_to_files(Mesh& made, const std::string& id) const {
+    // Returns its name.
+    std::string add_to_files(const Mesh& made, std::shared_ptr<const MeshFile> file, const std::string& id) const {
         auto& files = import_.scene.in_memory.meshes;
-        for (std::size_t number = 0; made.name.empty() || files.contains(made.name); ++number) made.name = file_name(id, number);
-        files[made.name] = made.file;
+        std::string name;
+        for (std::size_t number = 0; name.empty() || files.contains(name); ++number) name = file_name(id, number);
+        files[name] = std::move(file);
         if (has_vertex_colors(*made.mesh, *made.primitive))
             import_.warnings.add("colours of vertices are left out: no material of COLLADA uses them");
+        return name;
     }
 
     void add_alone(Placed placed) const {
         const Instance& instance = *placed.instance;
-        if (placed.mesh && placed.mesh->is_flat() && is_mirroring(instance.to_world))
+        if (placed.mesh && placed.mesh->is_flat() && is_invertible(instance.to_world) && is_mirroring(instance.to_world))
             add_boolean(placed.shape, "flip_normals", true, instance.node->place);
         add_to_world(placed.shape, instance);
         add_surface(placed);
@@ -174,7 +194,8 @@ private:
     }
 
     static void add_to_world(Element& e, const Instance& instance) {
-        if (instance.to_world != Mat4(1.0)) add_matrix(e, "to_world", instance.to_world, instance.node->place);
+        if (instance.to_world != Mat4(1.0) && is_invertible(instance.to_world))
+            add_matrix(e, "to_world", instance.to_world, instance.node->place);
     }
     static void add_surface(Placed& placed) {
         const Location& place = placed.instance->use->place;

@@ -6,17 +6,17 @@
 
 namespace neumann::reader::collada {
 
-namespace {
-
 Mat4 read_matrix(const Element& e) {
     const std::vector<double> v = read_numbers(e, 16);
     Mat4 m(1.0);
     for (int row = 0; row < 4; ++row)
         for (int column = 0; column < 4; ++column) m[column][row] = v[static_cast<std::size_t>(4 * row + column)];
     if (m[0][3] != 0.0 || m[1][3] != 0.0 || m[2][3] != 0.0 || m[3][3] != 1.0)
-        throw InputError(e.place, "the last row of <matrix> is not 0 0 0 1");
+        throw InputError(e.place, fmt::format("the last row of <{}> is not 0 0 0 1", e.tag));
     return m;
 }
+
+namespace {
 
 Mat4 read_rotation(const Element& e) {
     const std::vector<double> v = read_numbers(e, 4);

@@ -10,11 +10,11 @@ namespace neumann::reader::gltf {
 
 namespace {
 
-constexpr std::array<std::string_view, 13> known = {
-    "KHR_lights_punctual",    "KHR_materials_anisotropy",        "KHR_materials_clearcoat",   "KHR_materials_dispersion",
-    "KHR_materials_ior",      "KHR_materials_emissive_strength", "KHR_materials_iridescence", "KHR_materials_sheen",
-    "KHR_materials_specular", "KHR_materials_transmission",      "KHR_materials_unlit",       "KHR_materials_volume",
-    "KHR_texture_transform"};
+constexpr std::array<std::string_view, 14> known = {
+    "EXT_mesh_gpu_instancing",  "KHR_lights_punctual",    "KHR_materials_anisotropy",        "KHR_materials_clearcoat",
+    "KHR_materials_dispersion", "KHR_materials_ior",      "KHR_materials_emissive_strength", "KHR_materials_iridescence",
+    "KHR_materials_sheen",      "KHR_materials_specular", "KHR_materials_transmission",      "KHR_materials_unlit",
+    "KHR_materials_volume",     "KHR_texture_transform"};
 
 // Quantized meshes need nothing but what accessors can do anyway. Textures in other formats have a PNG or a JPEG beside them, or
 // else lack their source, which is told.

@@ -1,8 +1,11 @@
 #include "core/reader/gltf/nodes.h"
 
+#include "core/reader/xml/transform.h"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -31,12 +34,13 @@ double largest_of(const glm::dmat3& m) {
     return max_component({max_component(glm::abs(m[0])), max_component(glm::abs(m[1])), max_component(glm::abs(m[2]))});
 }
 
-// A map that has no inverse, as far as numbers tell.
-bool is_flat(const Mat4& m) {
-    const glm::dmat3 linear(m);
-    const double scale = largest_of(linear);
-    return scale == 0.0 || std::abs(glm::determinant(linear / scale)) < 1e-12;
+// Nothing if its length is not 1, or almost.
+std::optional<glm::dquat> unit_quaternion(const glm::dquat& q) {
+    const double length = glm::length(q);
+    return std::abs(length - 1.0) < 0.1 ? std::optional(q / length) : std::nullopt;
 }
+
+Vec3 vector_of(const float* v) { return {v[0], v[1], v[2]}; }
 
 Mat4 local_transform(JsonObject& node) {
     constexpr double zero = 0.0, one = 1.0;
@@ -50,14 +54,49 @@ Mat4 local_transform(JsonObject& node) {
     }
     const auto t = node.numbers("translation", {0, 0, 0}), r = node.numbers("rotation", {0, 0, 0, 1}),
                s = node.numbers("scale", {1, 1, 1});
-    glm::dquat q(r[3], r[0], r[1], r[2]);
-    if (const double length = glm::length(q); std::abs(length - 1.0) < 0.1) {
-        q = q / length;
-    } else {
-        node.complain("rotation", fmt::format("rotation is of length {}, expected 1", length));
-        q = glm::dquat(1.0, 0.0, 0.0, 0.0);
+    const glm::dquat q(r[3], r[0], r[1], r[2]);
+    const std::optional<glm::dquat> unit = unit_quaternion(q);
+    if (!unit) node.complain("rotation", fmt::format("rotation is of length {}, expected 1", glm::length(q)));
+    return glm::scale(glm::translate(Mat4(1.0), {t[0], t[1], t[2]}) * glm::mat4_cast(unit.value_or(glm::dquat(1.0, 0.0, 0.0, 0.0))),
+                      Vec3(s[0], s[1], s[2]));
+}
+
+// Of EXT_mesh_gpu_instancing: in the space of the node.
+std::vector<Mat4> read_instances(JsonObject& instancing, Accessors& accessors) {
+    auto attributes = instancing.object("attributes");
+    instancing.finish();
+    if (!attributes) instancing.fail_missing("attributes", "an object with TRANSLATION, ROTATION or SCALE");
+    const auto read = [&](const char* name, const char* type) -> std::shared_ptr<const Numbers> {
+        const auto accessor = attributes->index(name, accessors.list(), "accessor");
+        return accessor ? accessors.numbers(*accessor, {type}) : nullptr;
+    };
+    const auto translations = read("TRANSLATION", "VEC3"), rotations = read("ROTATION", "VEC4"), scales = read("SCALE", "VEC3");
+    for (const std::string& name : attributes->names())
+        if (name.starts_with('_')) attributes->value(name);  // an application's own
+    attributes->finish();
+    std::optional<std::size_t> count;
+    for (const auto& numbers : {translations, rotations, scales}) {
+        if (!numbers) continue;
+        if (count && *count != numbers->count())
+            throw InputError(attributes->place(), fmt::format("one attribute of the instances has {} elements and another {}",
+                                                              *count, numbers->count()));
+        count = numbers->count();
     }
-    return glm::scale(glm::translate(Mat4(1.0), {t[0], t[1], t[2]}) * glm::mat4_cast(q), Vec3(s[0], s[1], s[2]));
+    if (!count) throw InputError(attributes->place(), "instances without TRANSLATION, ROTATION and SCALE, expected one of them");
+    std::vector<Mat4> result;
+    for (std::size_t i = 0; i < *count; ++i) {
+        Mat4 m(1.0);
+        if (translations) m = glm::translate(m, vector_of((*translations)[i]));
+        if (rotations) {
+            const float* r = (*rotations)[i];
+            const std::optional<glm::dquat> q = unit_quaternion({r[3], r[0], r[1], r[2]});
+            if (!q) throw InputError(attributes->place_of("ROTATION"), fmt::format("element {} is not of length 1", i));
+            m = m * glm::mat4_cast(*q);
+        }
+        if (scales) m = glm::scale(m, vector_of((*scales)[i]));
+        result.push_back(m);
+    }
+    return result;
 }
 
 class NodeReader {
@@ -128,17 +167,24 @@ private:
         const auto mesh = node.index("mesh", meshes_, "mesh"), skin = node.index("skin", skins_, "skin"),
                    camera = node.index("camera", cameras_, "camera");
         if (node.has("weights")) refuse_morphs(node.list("weights"), notes_.problems);
+        auto instancing = node.extension("EXT_mesh_gpu_instancing");
         if (mesh && skin)
             skinned_.push_back({{*mesh, node.place(), placed.name, Mat4(1.0)}, *skin});
-        else if (mesh && is_flat(world))
-            notes_.warnings.add("a mesh in a node of scale 0 left out");
+        else if (mesh && instancing)
+            for (const Mat4& own : read_instances(*instancing, accessors_))
+                put_mesh({*mesh, instancing->place(), placed.name, world * own});
         else if (mesh)
-            put(result_.meshes, *mesh);
+            put_mesh({*mesh, node.place(), placed.name, world});
         if (camera) put(result_.cameras, *camera);
         if (auto extension = node.extension("KHR_lights_punctual")) {
             if (const auto light = extension->index("light", lights_, "light")) put(result_.lights, *light);
             extension->finish();
         }
+    }
+
+    void put_mesh(const Placed& placed) {
+        if (!is_finite(placed.to_world)) throw InputError(placed.place, "an instance is beyond the range of numbers");
+        result_.meshes.push_back(placed);
     }
 
     // Only where all joints have moved the mesh alike since it was bound, as in the pose in which it was.
@@ -168,8 +214,7 @@ private:
             notes_.problems.replace(Unknown(placed.place, "the mesh is bent by its skin, which is not supported",
                                             "; apply the armature before the export", "taken unbent, as its first joint moves it"),
                                     placed.place);
-        if (is_flat(placed.to_world)) throw InputError(placed.place, "the joints of the skin flatten the mesh");
-        result_.meshes.push_back(placed);
+        put_mesh(placed);
     }
 
     JsonObject& root_;
@@ -198,7 +243,7 @@ void refuse_morphs(const JsonList& weights, Problems& problems) {
 
 Mat4 without_scale(const Placed& placed) {
     Mat4 m = placed.to_world;
-    if (is_flat(m)) throw InputError(placed.place, "the node has no direction: its scale is 0");
+    if (!is_invertible(m)) throw InputError(placed.place, "the node has no direction: its scale is 0");
     // The third axis is where cameras and lights look along.
     const Vec3 z = glm::normalize(Vec3(m[2]) / largest_of(glm::dmat3(m)));
     const Vec3 x = glm::normalize(glm::cross(Vec3(m[1]) / largest_of(glm::dmat3(m)), z));

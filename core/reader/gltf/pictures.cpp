@@ -1,6 +1,7 @@
 #include "core/reader/gltf/pictures.h"
 
 #include "core/colour/spectrum_to_rgb.h"
+#include "core/colour/srgb_bytes.h"
 #include "core/image/image_io.h"
 #include "core/reader/gltf/uri.h"
 
@@ -50,13 +51,8 @@ Texels pick_bytes(const Texels& t, int first, int channels) {
 }
 
 double decoded(const Texels& t, std::size_t texel, int channel) {
-    static const std::array<double, 256> of_byte = [] {
-        std::array<double, 256> table{};
-        for (std::size_t i = 0; i < table.size(); ++i) table[i] = srgb_decode(static_cast<double>(i) / 255.0);
-        return table;
-    }();
     const double value = value_of(t, texel, channel);
-    if (!t.bytes.empty()) return of_byte[static_cast<std::size_t>(value * 255.0 + 0.5)];
+    if (!t.bytes.empty()) return decoded_srgb_bytes()[static_cast<std::size_t>(value * 255.0 + 0.5)];
     return t.is_encoded ? srgb_decode(value) : value;
 }
 

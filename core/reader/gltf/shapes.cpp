@@ -2,8 +2,11 @@
 
 #include "core/base/memory.h"
 #include "core/reader/gltf/back_side.h"
+#include "core/reader/import/flattened.h"
 #include "core/reader/import/make_elements.h"
+#include "core/reader/xml/transform.h"
 
+#include <algorithm>
 #include <utility>
 
 #include <fmt/format.h>
@@ -96,9 +99,8 @@ std::vector<Shapes::Part> Shapes::read_parts(Element& scene, std::size_t mesh) {
     const auto keep = [&](MeshFile file, const Part& like) {
         expect_memory_for(file, like.place);
         Part part = like;
-        part.filename = fmt::format("meshes/{}.ply", mesh_names_.unique(name));
         part.file = std::make_shared<const MeshFile>(std::move(file));
-        in_memory_.meshes[part.filename] = part.file;
+        part.filename = add_file(name, part.file);
         parts.push_back(std::move(part));
     };
     for (std::size_t i = 0; i < primitives.size(); ++i)
@@ -106,7 +108,7 @@ std::vector<Shapes::Part> Shapes::read_parts(Element& scene, std::size_t mesh) {
             JsonObject primitive = primitives.object(i);
             const Material& material = material_of(primitive);
             for (PrimitiveMesh& read : read_primitive(primitive, accessors_, material)) {
-                const Part like{primitive.place(), "", bsdf_of(scene, material, read.traits), &material, nullptr};
+                const Part like{primitive.place(), name, "", bsdf_of(scene, material, read.traits), &material, nullptr};
                 keep(std::move(read.file), like);
                 if (material.emits() && material.is_double_sided) keep(back_side(*parts.back().file), like);
             }
@@ -114,12 +116,25 @@ std::vector<Shapes::Part> Shapes::read_parts(Element& scene, std::size_t mesh) {
     return parts;
 }
 
-Element Shapes::make_shape(const Part& part, const Placed* placed) {
-    const bool is_flat = part.file->normals.empty();
+std::string Shapes::add_file(const std::string& name, std::shared_ptr<const MeshFile> file) {
+    const std::string filename = fmt::format("meshes/{}.ply", mesh_names_.unique(name));
+    in_memory_.meshes[filename] = std::move(file);
+    return filename;
+}
+
+std::optional<Element> Shapes::make_shape(const Part& part, const Placed* placed) {
+    std::optional<MeshFile> flat;
+    const bool is_laid_flat = placed && !is_invertible(placed->to_world);
+    if (is_laid_flat && !(flat = flattened(*part.file, placed->to_world))) {
+        notes_.warnings.add("a mesh in a node of scale 0 left out");
+        return std::nullopt;
+    }
+    const bool is_flat = is_laid_flat || part.file->normals.empty();
     Element e = make_object("shape", "ply", part.place);
-    add_string(e, "filename", part.filename, part.place);
+    add_string(e, "filename", flat ? add_file(part.name, std::make_shared<const MeshFile>(std::move(*flat))) : part.filename,
+               part.place);
     if (is_flat) add_boolean(e, "face_normals", true, part.place);
-    if (placed) {
+    if (placed && !is_laid_flat) {
         add_matrix(e, "to_world", placed->to_world, placed->place);
         // A mesh in a mirror shows the same side; with normals it is turned to their side anyway.
         if (is_flat && glm::determinant(glm::dmat3(placed->to_world)) < 0.0) add_boolean(e, "flip_normals", true, placed->place);
@@ -131,21 +146,23 @@ Element Shapes::make_shape(const Part& part, const Placed* placed) {
 
 void Shapes::add(Element& scene, std::size_t mesh, const std::vector<Placed>& places) {
     const std::vector<Part> parts = read_parts(scene, mesh);
+    const auto is_instance = [&](const Placed& placed) { return places.size() > 1 && is_invertible(placed.to_world); };
     std::vector<const Part*> shared;
     for (const Part& part : parts) {
         const Bounds bounds = bounds_of(part.file->mesh);
         for (const Placed& placed : places) bounds_.add(transformed(bounds, placed.to_world));
-        if (places.size() > 1 && !part.material->emits())
-            shared.push_back(&part);
-        else
-            for (const Placed& placed : places) neumann::reader::add(scene, make_shape(part, &placed));
+        if (!part.material->emits() && std::ranges::any_of(places, is_instance)) shared.push_back(&part);
+        for (const Placed& placed : places)
+            if (part.material->emits() || !is_instance(placed))
+                if (auto shape = make_shape(part, &placed)) neumann::reader::add(scene, std::move(*shape));
     }
     if (shared.empty()) return;
     const std::string id = ids_.unique(fmt::format("group_{}", mesh));
     Element group = make_object("shape", "shapegroup", meshes_.place_of(mesh), id);
-    for (const Part* part : shared) neumann::reader::add(group, make_shape(*part, nullptr));
+    for (const Part* part : shared) neumann::reader::add(group, *make_shape(*part, nullptr));
     neumann::reader::add(scene, std::move(group));
-    for (const Placed& placed : places) add_instance(scene, id, placed);
+    for (const Placed& placed : places)
+        if (is_instance(placed)) add_instance(scene, id, placed);
 }
 
 }  // namespace neumann::reader::gltf

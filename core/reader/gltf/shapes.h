@@ -8,6 +8,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 
 namespace neumann::reader::gltf {
 
@@ -25,7 +26,7 @@ private:
     // A mesh of one material.
     struct Part {
         Location place;
-        std::string filename, bsdf;
+        std::string name, filename, bsdf;
         const Material* material;
         std::shared_ptr<const MeshFile> file;
     };
@@ -33,7 +34,9 @@ private:
     std::vector<Part> read_parts(Element& scene, std::size_t mesh);
     const Material& material_of(JsonObject& primitive);
     std::string bsdf_of(Element& scene, const Material& material, const OnMesh& mesh);
-    Element make_shape(const Part& part, const Placed* placed);
+    std::string add_file(const std::string& name, std::shared_ptr<const MeshFile> file);
+    // Nothing, with a warning, where a map without an inverse leaves no area.
+    std::optional<Element> make_shape(const Part& part, const Placed* placed);
     void expect_memory_for(const MeshFile& file, const Location& place);
 
     Notes& notes_;

@@ -1,6 +1,7 @@
 #include "core/reader/import/file_kinds.h"
 
 #include "core/base/error.h"
+#include "core/base/input_file.h"
 
 #include <algorithm>
 #include <array>
@@ -89,8 +90,8 @@ SceneFormat scene_format(const std::string& path) {
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     if (path.ends_with(".pbrt.gz")) return SceneFormat::pbrt;
     std::error_code error;
-    const bool is_there = std::filesystem::exists(path, error) && !std::filesystem::is_directory(path, error);
-    if (is_there)
+    const bool is_there = !why_not_input(path);
+    if (std::filesystem::is_regular_file(path, error))
         for (const Kind& kind : other_kinds)
             if (ending == kind.ending) refuse(path, kind);
     const std::string beginning = is_there ? beginning_of(path) : "";
@@ -103,6 +104,13 @@ SceneFormat scene_format(const std::string& path) {
     // Of the others, and of XML, what it begins with says more.
     if (beginning.starts_with("glTF")) return SceneFormat::gltf;
     if (beginning.find("<COLLADA") != std::string::npos) return SceneFormat::collada;
+    const std::size_t first = beginning.find_first_not_of("\xEF\xBB\xBF \t\r\n");
+    if (is_there && ending != ".xml" && (first == std::string::npos || beginning[first] != '<') &&
+        !beginning.starts_with("\xFF\xFE") && !beginning.starts_with("\xFE\xFF"))
+        throw InputError(
+            path +
+            ": this is no scene that is known by its ending or its beginning, expected XML of Mitsuba 3 (.xml), glTF 2.0 "
+            "(.glb, .gltf), pbrt-v4 (.pbrt), COLLADA (.dae) or Tungsten (.json)");
     return SceneFormat::mitsuba;
 }
 

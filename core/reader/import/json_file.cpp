@@ -1,8 +1,10 @@
 #include "core/reader/import/json_file.h"
 
+#include "core/base/input_file.h"
+#include "core/base/printable.h"
+
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 
 #include <fmt/format.h>
 
@@ -21,7 +23,8 @@ Location place_in(const std::string& path, std::string_view text, std::size_t of
 std::string reason(const std::exception& e) {
     const std::string_view what = e.what(), mark = ": ";
     const std::size_t at = what.find(mark);
-    return std::string(at == std::string_view::npos ? what : what.substr(at + mark.size()));
+    constexpr std::size_t longest = 120;  // it quotes what it has read last
+    return printable(at == std::string_view::npos ? what : what.substr(at + mark.size()), longest);
 }
 
 }  // namespace
@@ -38,20 +41,15 @@ nlohmann::json parse_json(const std::string& path, std::string_view text) {
 }
 
 std::string read_bytes(const std::string& path, const Location& place) {
-    namespace fs = std::filesystem;
-    // The scene file itself needs no name beside its place.
-    const std::string name = place.pointer.empty() ? "" : fmt::format("'{}' ", path);
-    std::error_code error;
-    if (!fs::exists(path, error))
-        throw InputError(place, name.empty() ? "there is no such file" : fmt::format("there is no file '{}'", path));
-    if (!fs::is_regular_file(path, error))
-        throw InputError(place, fmt::format("{}is a {}, expected a {}file", name,
-                                            fs::is_directory(path, error) ? "folder" : "device", name.empty() ? "scene " : ""));
-    std::ifstream stream(path, std::ios::binary);
-    std::string bytes(fs::file_size(path, error), '\0');
-    if (error || !stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size())))
-        throw InputError(place, name + "cannot be read");
-    return bytes;
+    const std::string expected = place.pointer.empty() ? "a scene file" : "a file";
+    if (const auto why = why_not_input(path, expected)) {
+        // The scene file itself needs no name beside its place.
+        if (place.pointer.empty()) throw InputError(place, *why);
+        std::error_code error;
+        if (!std::filesystem::exists(path, error)) throw InputError(place, fmt::format("there is no file '{}'", path));
+        throw InputError(place, fmt::format("'{}' {}", path, *why));
+    }
+    return read_input(path, expected);
 }
 
 }  // namespace neumann::reader

@@ -1,6 +1,7 @@
 #include "core/reader/meshes/curves.h"
 
 #include "core/base/error.h"
+#include "core/base/input_file.h"
 #include "core/reader/meshes/mesh_text.h"
 
 #include <fmt/format.h>
@@ -111,7 +112,7 @@ private:
 }  // namespace
 
 std::vector<Curve> read_curves(const std::string& path, std::size_t least) {
-    const std::string bytes = read_mesh_bytes(path);
+    const std::string bytes = read_input(path);
     MeshText text(path, bytes, MeshText::Syntax::plain);
     std::vector<Curve> curves;
     Curve curve;

@@ -16,8 +16,8 @@ struct MeshFile {
     std::vector<Vec3> normals;
 };
 
-// The first two read polygons as fans around their first vertex, which is right for convex polygons, and refuse files without
-// faces. Errors are InputError "file:line:column: …"; where a binary body has no lines, "file: face 12: …", counted from 1.
+// The first two cut polygons into triangles (polygons.h) and refuse files without faces. Errors are InputError "file:line:column:
+// …"; where a binary body has no lines, "file: face 12: …", counted from 1.
 
 // Groups, materials, lines and points are ignored, free-form geometry is refused. With normals or texture coordinates, a vertex is
 // repeated for each of its normals and coordinates and left out if no face uses it; a triangle without normals among others with

@@ -1,6 +1,7 @@
 #include "core/reader/meshes/mesh_text.h"
 
 #include "core/base/error.h"
+#include "core/base/input_file.h"
 
 #include <cerrno>
 #include <cstring>
@@ -12,36 +13,12 @@
 namespace neumann {
 
 OpenFile open_mesh_file(const std::string& path) {
-    // Only regular files are accepted: pipes and devices may have no end, and directories open without an error.
+    expect_input(path);
     std::error_code error;
-    const auto status = std::filesystem::status(path, error);
-    if (std::filesystem::is_directory(status)) throw InputError(path + ": cannot be opened: Is a directory");
-    if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
-        throw InputError(path + ": cannot be opened: Not a regular file");
-    }
-
     OpenFile result{decltype(OpenFile::file)(std::fopen(path.c_str(), "rb")), 0};
     if (!result.file) throw InputError(fmt::format("{}: cannot be opened: {}", path, std::strerror(errno)));
     result.size = std::filesystem::file_size(path, error);
     if (error) throw InputError(fmt::format("{}: cannot be read: {}", path, error.message()));
-    return result;
-}
-
-std::string read_mesh_bytes(const std::string& path) {
-    const OpenFile open = open_mesh_file(path);
-    std::string bytes(open.size, '\0');
-    bytes.resize(std::fread(bytes.data(), 1, bytes.size(), open.file.get()));
-    if (std::ferror(open.file.get()) != 0) throw InputError(fmt::format("{}: cannot be read: {}", path, std::strerror(errno)));
-    return bytes;
-}
-
-std::string printable(std::string_view text) {
-    constexpr std::size_t longest = 40;
-    std::string result(text.substr(0, longest));
-    for (char& c : result) {
-        if (c < ' ' || c > '~') c = '?';
-    }
-    if (text.size() > longest) result += "...";
     return result;
 }
 
@@ -84,7 +61,7 @@ void MeshText::fail_expected(std::string_view expected) const {
     while (!is_delimiter(stop)) ++stop;
     if (token_ == end_) fail(fmt::format("expected {}, found the end of the file", expected));
     if (stop == token_ || is_comment(token_)) fail(fmt::format("expected {}, found the end of the line", expected));
-    fail(fmt::format("expected {}, found '{}'", expected, printable({token_, stop})));
+    fail(fmt::format("expected {}, found '{}'", expected, glimpse_of({token_, stop})));
 }
 
 }  // namespace neumann

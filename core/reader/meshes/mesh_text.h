@@ -1,6 +1,7 @@
 // Shared by the mesh readers: a file in memory, and a cursor over its text that keeps track of line and column.
 #pragma once
 
+#include "core/base/printable.h"
 #include "core/base/vec.h"
 
 #include <algorithm>
@@ -26,12 +27,9 @@ struct OpenFile {
     std::unique_ptr<std::FILE, Close> file;
     std::uint64_t size;
 };
-// Throws InputError if the path is not a regular file or cannot be opened.
+// Throws InputError as expect_input() does.
 OpenFile open_mesh_file(const std::string& path);
-std::string read_mesh_bytes(const std::string& path);
 
-// Makes text fit for messages: printable ASCII and not too long.
-std::string printable(std::string_view text);
 // "1 vertex", "2 vertices", "2 normals".
 std::string counted(std::size_t count, std::string_view noun);
 // The end of "vertex index 9 …".

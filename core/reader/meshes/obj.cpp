@@ -1,6 +1,8 @@
 #include "core/base/error.h"
+#include "core/base/input_file.h"
 #include "core/reader/meshes/mesh_file.h"
 #include "core/reader/meshes/mesh_text.h"
+#include "core/reader/meshes/polygons.h"
 
 #include <algorithm>
 #include <array>
@@ -88,6 +90,10 @@ public:
         if (triangles_.size() > max_mesh_count) {
             throw InputError(fmt::format("{}: has more than {}", text_.file(), counted(max_mesh_count, "triangle")));
         }
+        if (!triangle_coordinates_.empty()) triangle_coordinates_.resize(triangles_.size(), all_none);
+        if (!triangle_normals_.empty()) triangle_normals_.resize(triangles_.size(), all_none);
+        cut_fans(fans_, triangles_, [&](std::uint32_t vertex) { return vertices_[vertex]; },
+                 {&triangle_coordinates_, &triangle_normals_});
         if (triangle_normals_.empty() && triangle_coordinates_.empty()) return {{std::move(vertices_), std::move(triangles_)}, {}};
         return split_vertices();
     }
@@ -108,7 +114,7 @@ private:
             text_.skip_line();
         } else {
             text_.fail(fmt::format("unsupported OBJ element '{}', expected v, vt, vn, f, l, p, g, o, s, mtllib or usemtl",
-                                   printable(keyword)));
+                                   glimpse_of(keyword)));
         }
         text_.expect_line_end();
         text_.next_line();
@@ -176,6 +182,7 @@ private:
         const auto place = text_.place();
         Corner first{}, previous{};
         std::size_t count = 0;
+        const std::size_t first_triangle = triangles_.size();
         for (; !text_.at_line_end(); ++count) {
             const Corner next = corner();
             if (count == 0) first = next;
@@ -189,6 +196,7 @@ private:
             previous = next;
         }
         if (count < 3) text_.fail(place, fmt::format("a face needs at least 3 vertices, found {}", count));
+        if (count > 3) fans_.push_back({first_triangle, count});
     }
 
     void triangle(const Corner& a, const Corner& b, const Corner& c) {
@@ -207,8 +215,6 @@ private:
         MeshFile result;
         auto& vertices = result.mesh.vertices;
         const bool has_coordinates = !triangle_coordinates_.empty(), has_normals = !triangle_normals_.empty();
-        if (has_coordinates) triangle_coordinates_.resize(triangles_.size(), all_none);
-        if (has_normals) triangle_normals_.resize(triangles_.size(), all_none);
         vertices.reserve(vertices_.size());
         if (has_coordinates) result.mesh.uv.reserve(vertices_.size());
         if (has_normals) result.normals.reserve(vertices_.size());
@@ -271,6 +277,7 @@ private:
     std::vector<Vec3> vertices_, normals_;
     std::vector<Vec2> coordinates_;
     std::vector<Triple> triangles_;
+    std::vector<Fan> fans_;
     // One entry per triangle so far; empty until a face has coordinates or normals.
     std::vector<Triple> triangle_coordinates_, triangle_normals_;
 };
@@ -278,7 +285,7 @@ private:
 }  // namespace
 
 MeshFile read_obj(const std::string& path) {
-    const std::string bytes = read_mesh_bytes(path);
+    const std::string bytes = read_input(path);
     std::string_view text = bytes;
     constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
     if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());

@@ -1,8 +1,11 @@
 #include "core/base/error.h"
+#include "core/base/input_file.h"
 #include "core/colour/spectrum_to_rgb.h"
+#include "core/colour/srgb_bytes.h"
 #include "core/reader/meshes/mesh_file.h"
 #include "core/reader/meshes/mesh_ply_header.h"
 #include "core/reader/meshes/mesh_text.h"
+#include "core/reader/meshes/polygons.h"
 
 #include <algorithm>
 #include <array>
@@ -170,6 +173,7 @@ public:
         if (result_.mesh.triangles.size() > max_mesh_count) {
             throw InputError(fmt::format("{}: has more than {}", file_, counted(max_mesh_count, "triangle")));
         }
+        cut_fans(fans_, result_.mesh.triangles, [&](std::uint32_t vertex) { return result_.mesh.vertices[vertex]; });
         return std::move(result_);
     }
 
@@ -217,7 +221,8 @@ private:
         if (most > 0.0) {
             if (value < 0.0 || value > most)
                 rows_.fail(fmt::format("{} is {}, expected a whole number from 0 to {}", property.name, value, most));
-            value = srgb_decode(value / most);
+            const bool is_byte = property.type == PlyType::u8 && value == std::floor(value);
+            value = is_byte ? decoded_srgb_bytes()[static_cast<std::size_t>(value)] : srgb_decode(value / most);
         }
         if (!std::isfinite(static_cast<float>(value))) rows_.fail(property.name + " is not finite");
         auto& channels = row_[attribute];
@@ -287,6 +292,7 @@ private:
             if (count < 3) rows_.fail(fmt::format("a face needs at least 3 vertices, found {}", count));
             const std::uint32_t first = index(property.type);
             std::uint32_t previous = index(property.type);
+            if (count > 3) fans_.push_back({before, static_cast<std::size_t>(count)});
             for (std::int64_t i = 2; i < count; ++i) {
                 const std::uint32_t next = index(property.type);
                 result_.mesh.triangles.push_back({first, previous, next});
@@ -321,6 +327,7 @@ private:
     const PlyHeader& header_;
     const std::string& file_;
     MeshFile result_;
+    std::vector<Fan> fans_;
     // For the element being read: the index of its first attribute in the mesh, and the values of the row.
     std::size_t first_attribute_ = 0;
     std::vector<std::array<float, 3>> row_;
@@ -329,7 +336,7 @@ private:
 }  // namespace
 
 MeshFile read_ply(const std::string& path, const std::vector<std::string>& attributes) {
-    return parse_ply(path, read_mesh_bytes(path), attributes);
+    return parse_ply(path, read_input(path), attributes);
 }
 
 MeshFile parse_ply(const std::string& path, const std::string& bytes, const std::vector<std::string>& attributes) {

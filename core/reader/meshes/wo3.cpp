@@ -1,6 +1,7 @@
 // Tungsten's meshes: a count of 64 bits and as many vertices, of a position, a normal, u and v in single precision; a count and as
 // many triangles, of three vertices, counted from 0, and the number of a material. All is little-endian.
 #include "core/base/error.h"
+#include "core/base/input_file.h"
 #include "core/reader/meshes/mesh_file.h"
 #include "core/reader/meshes/mesh_text.h"
 
@@ -25,7 +26,7 @@ static_assert(sizeof(Wo3Vertex) == 32 && sizeof(Wo3Triangle) == 16);
 
 class Wo3Reader {
 public:
-    explicit Wo3Reader(const std::string& path) : path_(path), bytes_(read_mesh_bytes(path)) {}
+    explicit Wo3Reader(const std::string& path) : path_(path), bytes_(read_input(path)) {}
 
     Wo3Mesh read() {
         const std::uint64_t vertices = count("vertex", sizeof(Wo3Vertex));

@@ -99,31 +99,33 @@ Element BsdfMaker::make_thin_dielectric() {
 }
 
 // A share 1 − w of a diffuse mirror and a share w of a sheet that only lets through diffusely (`principledthin` with diff_trans 2):
-// r = (1 − w) (r / (1 − w)) and t = w (t / w), which is exact. Both colours are at most 1 for w = max t / (max r + max t).
+// r = (1 − w) (r / (1 − w)) and t = w (t / w), which is exact. Both colours are at most max r + max t for w = max t / (max r + max
+// t); pbrt cuts each off at 1, and not their sum.
 Element BsdfMaker::make_diffuse_transmission() {
     const double scale = p_.number("scale", 1.0);
     if (scale < 0.0) p_.complain("scale", fmt::format("scale of {} is negative: {}", p_.title(), scale));
     const TextureValue r = reflectance("reflectance", 0.25), t = reflectance("transmittance", 0.25);
-    const double most_r = max_component(largest(r, importer_)) * scale, most_t = max_component(largest(t, importer_)) * scale;
-    if (most_r + most_t > 1.0)
-        p_.complain("reflectance", fmt::format("{} reflects up to {} and lets through up to {}, expected no more than 1 together",
-                                               p_.title(), most_r, most_t));
+    const double most_r = std::min(max_component(largest(r, importer_)) * scale, 1.0),
+                 most_t = std::min(max_component(largest(t, importer_)) * scale, 1.0);
+    const double sum = most_r + most_t, most = std::max(sum, 1.0);
+    if (sum > 1.0 + 1e-9)
+        importer_.warnings.add("diffusetransmission: reflectance and transmittance add up to more than 1, as pbrt renders it");
     const auto times = [&](const TextureValue& value, double factor) {
-        return factor == 1.0 ? value
-                             : apply(
-                                   value, [factor](const Rgb& c) { return glm::min(c * factor, 1.0); }, importer_);
+        return factor == 1.0 && scale == 1.0
+                   ? value
+                   : apply(
+                         value, [=](const Rgb& c) { return glm::min(glm::min(c * scale, 1.0) * factor, most); }, importer_);
     };
-    const double sum = most_r + most_t;
     Element reflecting = bsdf("diffuse");
     if (most_t == 0.0 || p_.is_wrong()) {
-        add(reflecting, "reflectance", times(r, scale));
+        add(reflecting, "reflectance", times(r, 1.0));
         return two_sided(std::move(reflecting));
     }
     Element transmitting = bsdf("principledthin");
-    add(transmitting, "base_color", times(t, scale * sum / most_t));
+    add(transmitting, "base_color", times(t, sum / most_t));
     add_float(transmitting, "diff_trans", 2.0, p_.place());
     if (most_r == 0.0) return transmitting;
-    add(reflecting, "reflectance", times(r, scale * sum / most_r));
+    add(reflecting, "reflectance", times(r, sum / most_r));
     Element blend = bsdf("blendbsdf");
     add_float(blend, "weight", most_t / sum, p_.place());
     reader::add(blend, two_sided(std::move(reflecting)));
@@ -148,7 +150,10 @@ Element BsdfMaker::make_coated_diffuse() {
     add_float(e, "int_ior", eta, p_.place("eta"));
     add_float(e, "ext_ior", 1.0, p_.place());
     add_boolean(e, "nonlinear", true, p_.place());  // what is reflected inwards is coloured again
-    if (!alphas.is_smooth) add_alphas(e, alphas);
+    if (!alphas.is_isotropic)
+        p_.refuse("vroughness", fmt::format("vroughness of {} is not uroughness, which is not supported", p_.title()),
+                  ": its coat is alike in all directions");
+    if (!alphas.is_smooth) add_alphas(e, {alphas.u, alphas.u, false, true});
     importer_.warnings.add("coateddiffuse: taken as 'plastic' or 'roughplastic', whose layer absorbs nothing");
     return two_sided(std::move(e));
 }

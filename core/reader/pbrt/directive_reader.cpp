@@ -12,6 +12,7 @@
 #include <charconv>
 #include <cmath>
 #include <filesystem>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -22,6 +23,20 @@ namespace {
 constexpr std::size_t max_depth = 32, max_files = 10000;
 
 constexpr const char* upgrade = "this is pbrt-v3, expected pbrt-v4, into which 'pbrt --upgrade' of pbrt-v4 converts it";
+
+// Where a line begins with WorldEnd, as scenes of pbrt-v3 end.
+std::optional<Location> end_of_v3(const std::string& path, const std::string& text) {
+    constexpr std::string_view word = "WorldEnd";
+    for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) {
+        const std::size_t line_start = text.rfind('\n', at) + 1;  // 0 where there is none
+        if (text.find_first_not_of(" \t\r", line_start) != at) continue;
+        const auto before = text.begin() + static_cast<std::ptrdiff_t>(at);
+        return Location{path, static_cast<int>(std::count(text.begin(), before, '\n')) + 1, static_cast<int>(at - line_start) + 1};
+    }
+    return std::nullopt;
+}
+
+bool is_of_v3(const std::string& word) { return word == "SurfaceIntegrator" || word == "Renderer" || word == "Volume"; }
 
 const char* beginning_of(char kind) { return kind == 'a' ? "AttributeBegin" : kind == 'o' ? "ObjectBegin" : "TransformBegin"; }
 
@@ -49,11 +64,17 @@ void DirectiveReader::in_world(const std::string& name, Directive directive) {
 }
 
 void DirectiveReader::read_file(const std::string& path) {
-    Tokens tokens(path, read_unpacked(path));
+    std::string text = read_unpacked(path);
+    // Told alone: most of what such a file says is wrong in pbrt-v4.
+    if (const std::optional<Location> end = end_of_v3(path, text))
+        throw InputError(*end, fmt::format("WorldEnd is no directive; {}", upgrade));
+    Tokens tokens(path, std::move(text));
     scene_.files.push_back(path);
     files_.push_back({path, &tokens});
     // A string without an end leaves nothing that could be understood.
     problems_.attempt({path, 1, 1}, [&] {
+        if (const std::optional<Token>& first = tokens.peek(); first && !may_begin(*first))
+            throw InputError(tokens.place(*first), fmt::format("expected a directive of pbrt, found {}", first->shown()));
         while (const std::optional<Token> token = tokens.next())
             if (!problems_.attempt(tokens.place(*token), [&] { execute(*token); })) skip_to_directive();
     });
@@ -68,13 +89,22 @@ void DirectiveReader::execute(const Token& token) {
 
 void DirectiveReader::fail_unknown(const Token& token) {
     const Location place = tokens().place(token);
-    if (token.text == "WorldEnd" || token.text == "SurfaceIntegrator" || token.text == "Renderer" || token.text == "Volume")
-        throw InputError(place, fmt::format("{} is no directive; {}", token.text, upgrade));
-    if (token.is_string || token.text.empty() || !std::isalpha(static_cast<unsigned char>(token.text[0])))
+    if (is_of_v3(token.text)) throw InputError(place, fmt::format("{} is no directive; {}", token.text, upgrade));
+    if (token.is_string || !std::ranges::all_of(token.text, [](unsigned char c) { return std::isalpha(c); }))
         throw InputError(place, fmt::format("expected a directive, found {}", token.shown()));
+    throw Unknown(place, fmt::format("unknown directive '{}'", printable(token.text)), did_you_mean(token.text, known_directives()),
+                  "left out");
+}
+
+std::vector<std::string> DirectiveReader::known_directives() const {
     std::vector<std::string> known;
     for (const auto& [name, directive] : directives_) known.push_back(name);
-    throw Unknown(place, fmt::format("unknown directive {}", token.shown()), did_you_mean(token.text, known), "left out");
+    return known;
+}
+
+bool DirectiveReader::may_begin(const Token& first) const {
+    if (first.is_string) return false;
+    return directives_.contains(first.text) || is_of_v3(first.text) || !did_you_mean(first.text, known_directives()).empty();
 }
 
 // Those that are not known are told, too.
@@ -149,10 +179,12 @@ void DirectiveReader::pop(char kind, const std::string& directive, const Locatio
         throw InputError(place, fmt::format("{} without {}; the {} at {} has not ended", directive, beginning_of(kind),
                                             beginning_of(top.kind), to_string(top.place)));
     // TransformBegin saves nothing else.
-    if (kind == 't')
+    if (kind == 't') {
         state_.to_world = top.state.to_world;
-    else
+        state_.moves_end_only = top.state.moves_end_only;
+    } else {
         state_ = std::move(top.state);
+    }
     pushed_.pop_back();
 }
 

@@ -35,6 +35,9 @@ private:
 
     void execute(const Token& token);
     [[noreturn]] void fail_unknown(const Token& token);
+    std::vector<std::string> known_directives() const;
+    // Whether a file may begin with it; otherwise it is none of pbrt.
+    bool may_begin(const Token& first) const;
     void skip_to_directive();
 
     Tokens& tokens() { return *files_.back().tokens; }

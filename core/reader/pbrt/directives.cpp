@@ -3,6 +3,7 @@
 #include "core/reader/meshes/mesh_text.h"
 #include "core/reader/pbrt/directive_reader.h"
 #include "core/reader/pbrt/transforms.h"
+#include "core/reader/xml/transform.h"
 
 #include <algorithm>
 
@@ -43,7 +44,8 @@ void DirectiveReader::add_state_directives() {
     for (const char* name : {"Identity", "Translate", "Scale", "Rotate", "LookAt", "Transform", "ConcatTransform"})
         anywhere(name, [this](const std::string& word, const Location& place) {
             const std::vector<double> numbers = number_arguments(word, place, *transform_size(word));
-            state_.to_world = transformed_by(word, numbers, state_.to_world, place);
+            const Mat4 moved = transformed_by(word, numbers, state_.to_world, place);
+            if (!state_.moves_end_only) state_.to_world = moved;
         });
     anywhere("CoordinateSystem", [this](auto& word, const Location& place) {
         coordinate_systems_[string_argument(word, place, "a name")] = state_.to_world;
@@ -56,7 +58,7 @@ void DirectiveReader::add_state_directives() {
         if (found == coordinate_systems_.end())
             throw InputError(place,
                              fmt::format("there is no coordinate system '{}'{}", printable(name), did_you_mean(name, known)));
-        state_.to_world = found->second;
+        if (!state_.moves_end_only) state_.to_world = found->second;
     });
     // The times matter only where something moves.
     anywhere("TransformTimes", [this](auto& word, const Location& place) { number_arguments(word, place, 2); });
@@ -64,7 +66,11 @@ void DirectiveReader::add_state_directives() {
         const std::optional<Token> which = tokens().next();
         const bool is_known = which && (which->is("All") || which->is("StartTime") || which->is("EndTime"));
         if (!is_known) throw InputError(place, fmt::format("{} without All, StartTime or EndTime", word));
-        if (!which->is("All")) throw InputError(place, fmt::format("{} {}: motion is not supported", word, which->text));
+        if (!which->is("All"))
+            problems_.replace(Unknown(place, fmt::format("{} {}: motion is not supported", word, which->text), "",
+                                      "what moves stands where it is when the shutter opens"),
+                              place);
+        state_.moves_end_only = which->is("EndTime");
     });
     anywhere("ReverseOrientation", [this](auto&, const Location&) { state_.reversed = !state_.reversed; });
     anywhere("AttributeBegin", [this](auto&, const Location& place) { push('a', place); });
@@ -118,6 +124,11 @@ void DirectiveReader::option(const Location& place) {
 }
 
 void DirectiveReader::camera(const Location& place) {
+    if (!is_invertible(state_.to_world)) {
+        problems_.add(InputError(place, "the transformation of the camera has no inverse, expected one that scales nothing to 0"),
+                      place);
+        state_.to_world = Mat4(1.0);
+    }
     set_option(scene_.camera, "Camera", place, "camera");
     coordinate_systems_["camera"] = glm::inverse(state_.to_world);
 }

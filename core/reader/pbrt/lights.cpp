@@ -10,6 +10,7 @@
 #include "core/reader/pbrt/light_scale.h"
 #include "core/reader/pbrt/octahedral.h"
 #include "core/reader/pbrt/rigid.h"
+#include "core/reader/xml/transform.h"
 
 #include <cmath>
 #include <numbers>
@@ -27,6 +28,13 @@ const std::vector<std::string> light_types = {"distant", "goniometric", "infinit
 
 Vec3 to_world_point(const Entity& e, const Vec3& p) { return Vec3(e.to_world * glm::dvec4(p, 1.0)); }
 Vec3 to_world_vector(const Entity& e, const Vec3& v) { return Vec3(e.to_world * glm::dvec4(v, 0.0)); }
+
+// Of a light that looks somewhere.
+void expect_direction(const Entity& e) {
+    if (!is_invertible(e.to_world))
+        throw InputError(e.place(), fmt::format("the transformation of {} has no inverse, expected one that scales nothing to 0",
+                                                e.parameters.title()));
+}
 
 void finish(Parameters& p) {
     p.finish();
@@ -57,6 +65,7 @@ Element make_point(Entity& e, Importer& importer) {
 }
 
 Element make_distant(Entity& e, Importer& importer) {
+    expect_direction(e);
     Parameters& p = e.parameters;
     Rgb irradiance = read_colour(p, "L", importer);
     if (const double illuminance = read_positive(p, "illuminance"); illuminance > 0.0) irradiance *= illuminance;
@@ -70,6 +79,7 @@ Element make_distant(Entity& e, Importer& importer) {
 }
 
 Element make_spot(Entity& e, Importer& importer) {
+    expect_direction(e);
     Parameters& p = e.parameters;
     Rgb intensity = read_colour(p, "I", importer);
     const double cone = p.number("coneangle", 30.0), delta = p.number("conedeltaangle", 5.0);
@@ -115,6 +125,7 @@ Picture read_square(const Entity& e, const std::string& filename, Importer& impo
 }
 
 Element make_picture_light(Entity& e, const std::string& filename, double scale, double illuminance, Importer& importer) {
+    expect_direction(e);
     const Picture picture = read_square(e, filename, importer);
     if (illuminance > 0.0) {
         const double own = illuminance_of(picture, importer);
@@ -147,6 +158,7 @@ Element make_infinite(Entity& e, Importer& importer) {
 }
 
 std::vector<Element> make_goniometric(Entity& e, Importer& importer) {
+    expect_direction(e);
     Parameters& p = e.parameters;
     Rgb intensity = read_colour(p, "I", importer);
     const double power = read_positive(p, "power");

@@ -1,8 +1,10 @@
 #include "core/reader/pbrt/shapes.h"
 
 #include "core/base/did_you_mean.h"
+#include "core/reader/import/flattened.h"
 #include "core/reader/import/make_elements.h"
 #include "core/reader/meshes/mesh_text.h"
+#include "core/reader/xml/transform.h"
 
 #include <algorithm>
 #include <cmath>
@@ -65,13 +67,14 @@ std::vector<Element> Shapes::make() {
 
 void Shapes::add(ShapeEntity& s, std::vector<Element>& to) {
     Parameters& p = s.parameters;
-    const auto form = importer_.problems.attempt(s.place(), [&] { return make_form(s); });
+    auto form = importer_.problems.attempt(s.place(), [&] { return make_form(s); });
     const auto alpha = textures_.find_number(p, "alpha");
     if (form) p.finish();
     // The material is looked for before, so that its problems are told even if the shape has some.
     MadeMaterial material = materials_.use(s.material, form ? form->coordinates : Coordinates::same);
     if (!form && importer_.problems.lenient()) return;  // of a type that is not known
     if (!form || p.is_wrong()) throw Told();
+    if (!lay_flat(s, *form)) return;
     if (material.is_interface) {
         if (s.light) importer_.warnings.add("area light on a shape with the material 'interface': left out, as in pbrt");
         return;
@@ -89,6 +92,20 @@ void Shapes::add(ShapeEntity& s, std::vector<Element>& to) {
         add_lights(s, *form, material, to);
     else
         to.push_back(finished(s, *form, material, std::nullopt));
+}
+
+bool Shapes::lay_flat(ShapeEntity& s, Form& form) {
+    if (is_invertible(s.to_world)) return true;
+    std::optional<MeshFile> flat;
+    if (form.mesh && !form.is_round()) flat = flattened(form.mesh->file, s.to_world);
+    if (!flat) {
+        importer_.warnings.add("a shape whose transformation has no inverse and leaves no area: left out, as in pbrt");
+        return false;
+    }
+    std::erase_if(form.element.children, [](const Element& e) { return e.attribute("name").value == "to_world"; });
+    form.mesh->file = std::move(*flat);
+    s.to_world = Mat4(1.0);
+    return true;
 }
 
 void Shapes::add_lights(const ShapeEntity& s, const Form& form, const MadeMaterial& material, std::vector<Element>& to) {
@@ -224,6 +241,10 @@ void Shapes::add_objects(std::vector<Element>& to) {
             continue;
         }
         if (found->second) continue;
+        if (!is_invertible(i.to_world)) {
+            importer_.warnings.add("an instance whose transformation has no inverse: left out, as in pbrt");
+            continue;
+        }
         Element e = make_object("shape", "instance", i.place);
         if (i.to_world != Mat4(1.0)) add_matrix(e, "to_world", i.to_world, i.place);
         add_reference(e, "object " + i.object, i.place);

@@ -39,6 +39,8 @@ private:
     Form make_mesh(ShapeEntity& s);
     // Of a round shape, of this area in its own space.
     Form make_part(ShapeEntity& s, MadeMesh mesh, double area);
+    // Under a map that has no inverse: meshes where it puts them. False for what pbrt does not show then.
+    bool lay_flat(ShapeEntity& s, Form& form);
     void add_lights(const ShapeEntity& s, const Form& form, const MadeMaterial& material, std::vector<Element>& to);
     // The form behind another one that shines to the other side.
     Form behind(const ShapeEntity& s, const Form& form);

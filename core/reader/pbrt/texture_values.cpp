@@ -2,6 +2,7 @@
 
 #include "core/base/error.h"
 #include "core/colour/spectrum_to_rgb.h"
+#include "core/colour/srgb_bytes.h"
 #include "core/image/image_io.h"
 #include "core/reader/import/find_file.h"
 #include "core/reader/import/make_elements.h"
@@ -47,10 +48,12 @@ const Texels& texels_of(const Picture& p, Importer& importer, std::shared_ptr<co
 }
 
 Rgb linear_texel(const Texels& t, bool raw, std::size_t pixel) {
+    const bool decode = t.is_encoded && !raw;
     const auto channel = [&](std::size_t c) {
         const std::size_t i = pixel * static_cast<std::size_t>(t.channels) + (t.channels < 3 ? 0 : c);
-        const double v = t.values.empty() ? t.bytes[i] / 255.0 : double{t.values[i]};
-        return t.is_encoded && !raw ? srgb_decode(v) : v;
+        if (t.values.empty()) return decode ? decoded_srgb_bytes()[t.bytes[i]] : t.bytes[i] / 255.0;
+        const double v = t.values[i];
+        return decode ? srgb_decode(v) : v;
     };
     return {channel(0), channel(1), channel(2)};
 }

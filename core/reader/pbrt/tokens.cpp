@@ -18,7 +18,7 @@ bool is_token_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == 
 }  // namespace
 
 std::string Token::shown() const {
-    return is_string ? fmt::format("\"{}\"", printable(text)) : fmt::format("'{}'", printable(text));
+    return is_string ? fmt::format("\"{}\"", glimpse_of(text)) : fmt::format("'{}'", glimpse_of(text));
 }
 
 Tokens::Tokens(std::string file, std::string text) : file_(std::move(file)), text_(std::move(text)) {

@@ -15,7 +15,7 @@ struct Token {
     int line = 0, column = 0;
 
     bool is(const char* word) const { return !is_string && text == word; }
-    std::string shown() const;  // for messages: as it stands in the file, but not too long
+    std::string shown() const;  // for messages: as it stands in the file, a few characters
 };
 
 class Tokens {

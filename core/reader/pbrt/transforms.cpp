@@ -1,7 +1,5 @@
 #include "core/reader/pbrt/transforms.h"
 
-#include "core/reader/xml/transform.h"
-
 #include <fmt/format.h>
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -65,7 +63,6 @@ Mat4 transformed_by(const std::string& directive, const std::vector<double>& num
     for (int i = 0; i < 4; ++i)
         if (!is_finite(Vec3(result[i])))
             throw InputError(place, fmt::format("{} makes a matrix with numbers beyond the range of double precision", directive));
-    if (!is_invertible(result)) throw InputError(place, fmt::format("{} makes a matrix that has no inverse", directive));
     return result;
 }
 

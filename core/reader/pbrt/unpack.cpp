@@ -1,7 +1,7 @@
 #include "core/reader/pbrt/unpack.h"
 
 #include "core/base/error.h"
-#include "core/reader/meshes/mesh_text.h"
+#include "core/base/input_file.h"
 
 #include <algorithm>
 #include <limits>
@@ -57,7 +57,7 @@ private:
 }  // namespace
 
 std::string read_unpacked(const std::string& path) {
-    std::string bytes = read_mesh_bytes(path);
+    std::string bytes = read_input(path);
     return path.ends_with(".gz") ? Unpacker(path, std::move(bytes)).run() : bytes;
 }
 

@@ -149,8 +149,11 @@ Materials::Sides Bsdfs::default_sides(bool emits) {
     return {default_, Materials::absorbing};
 }
 
-int Bsdfs::store(Bsdf bsdf) {
+double Bsdfs::parts_of(int index) const { return index == Materials::absorbing ? 0.0 : parts_[static_cast<std::size_t>(index)]; }
+
+int Bsdfs::store(Bsdf bsdf, double parts) {
     bsdfs_.push_back(std::move(bsdf));
+    parts_.push_back(parts);
     return static_cast<int>(bsdfs_.size()) - 1;
 }
 

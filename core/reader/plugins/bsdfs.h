@@ -24,7 +24,9 @@ public:
     std::vector<Bsdf> take() { return std::move(bsdfs_); }
 
 private:
-    int store(Bsdf bsdf);
+    // `parts`: of how many materials it is a mixture.
+    int store(Bsdf bsdf, double parts = 1.0);
+    double parts_of(int index) const;
     Materials::Sides read(const Element& e);
     Materials::Sides read_perturbed_normal(const Element& e);
     Materials::Sides read_two_sided(const Element& e);
@@ -32,14 +34,16 @@ private:
     Materials::Sides read_blend(const Element& e);
     Materials::Sides read_mixture(const Element& e);
     Materials::Sides read_coating(const Element& e);
-    // Stores a mixture of two materials of one side, each of which may absorb.
-    int store_blend(int first, int second, const SurfaceFunction& weight);
+    // Stores a mixture of two materials of one side, each of which may absorb. Throws InputError if it has too many parts: they are
+    // all asked wherever a ray hits it.
+    int store_blend(const Element& e, int first, int second, const SurfaceFunction& weight);
     // Throws InputError if a material that wraps others must not let light through.
     void refuse_transmission(const Element& nested, int index, const std::string& outer) const;
     std::shared_ptr<const Bsdf> shared(int index) const;
 
     const Context& context_;
     std::vector<Bsdf> bsdfs_;
+    std::vector<double> parts_;  // of each
     std::map<const Element*, Materials::Sides> sides_;
     std::set<const Element*> open_;  // elements being read, to detect cycles
     int default_ = Materials::absorbing;

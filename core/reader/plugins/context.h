@@ -20,6 +20,7 @@ struct TextureStore {
     };
     std::map<std::string, Range> attributes;  // of all meshes, by the attribute's name
     std::set<const Element*> open, known;     // elements being read, and elements already read
+    std::size_t parts = 0;                    // textures of which the outermost open one is made so far
 
     void widen(const std::string& attribute, const Range& by) {
         Range& range = attributes.try_emplace(attribute, by).first->second;

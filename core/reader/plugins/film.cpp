@@ -2,6 +2,7 @@
 #include "core/reader/xml/properties.h"
 
 #include <algorithm>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -65,6 +66,7 @@ PixelFilter read_filter_type(const std::string& type, Properties& p) {
 }  // namespace
 
 Film read_film(const Element& e, const Context& context) {
+    const bool is_known = e.attribute("type").value == "hdrfilm";
     type_of(e, {"hdrfilm"}, "hdrfilm", context.problems());
     Properties p(e, context.objects);
     Film film;
@@ -81,7 +83,11 @@ Film read_film(const Element& e, const Context& context) {
     p.boolean("banner");
     p.boolean("compensate");
     film.sample_border = p.boolean("sample_border").value_or(false);
-    const std::vector<const Element*> filters = p.nested("rfilter");
+    // Of a film that is not known there may be as many as it has pictures.
+    const std::vector<const Element*> filters = p.nested("rfilter", is_known ? 1 : std::numeric_limits<std::size_t>::max());
+    for (std::size_t i = 1; i < filters.size(); ++i)
+        context.problems().replace(Unknown(filters[i]->place, fmt::format("another <rfilter> in {}", p.title()), "", "ignored"),
+                                   e.place);
     p.refuse_rest();
     if (!filters.empty())
         if (const auto filter = context.problems().attempt(e.place, [&] { return read_filter(*filters.front(), context); }))

@@ -59,7 +59,7 @@ Materials::Sides Bsdfs::read_mask(const Element& e) {
     p.finish();
     if (nested.empty()) p.fail_empty("bsdf 'mask' has no <bsdf> inside, expected one");
     const Materials::Sides inner = sides(*nested.front());
-    const auto masked = [&](int index) { return store(Mask(shared(index), opacity)); };
+    const auto masked = [&](int index) { return store(Mask(shared(index), opacity), parts_of(index)); };
     const int front = masked(inner.front);
     return {front, masked(inner.back)};
 }
@@ -72,13 +72,18 @@ Materials::Sides Bsdfs::read_blend(const Element& e) {
     if (nested.size() != 2)
         p.fail_empty(fmt::format("bsdf 'blendbsdf' has {} <bsdf> inside, expected two", nested.empty() ? "no" : "one"));
     const Materials::Sides first = sides(*nested[0]), second = sides(*nested[1]);
-    const int front = store_blend(first.front, second.front, weight);
-    return {front, store_blend(first.back, second.back, weight)};
+    const int front = store_blend(e, first.front, second.front, weight);
+    return {front, store_blend(e, first.back, second.back, weight)};
 }
 
-int Bsdfs::store_blend(int first, int second, const SurfaceFunction& weight) {
-    if (first == Materials::absorbing && second == Materials::absorbing) return Materials::absorbing;
-    return store(Blend(shared(first), shared(second), weight));
+int Bsdfs::store_blend(const Element& e, int first, int second, const SurfaceFunction& weight) {
+    if (first == second) return first;  // a mixture of a material and itself
+    constexpr double most_parts = 65536.0;
+    const double parts = parts_of(first) + parts_of(second);
+    if (parts > most_parts)
+        throw InputError(e.place, fmt::format("bsdf '{}' is a mixture of {:.0f} materials, expected at most {:.0f}",
+                                              e.attribute("type").value, parts, most_parts));
+    return store(Blend(shared(first), shared(second), weight), parts);
 }
 
 Materials::Sides Bsdfs::read_mixture(const Element& e) {
@@ -104,11 +109,11 @@ Materials::Sides Bsdfs::read_mixture(const Element& e) {
             };
             const double left = sum(first, middle), right = sum(middle, end);
             const int a = mix(first, middle), b = mix(middle, end);
-            return store_blend(a, b, Rgb(left + right > 0.0 ? right / (left + right) : 0.5));
+            return store_blend(e, a, b, Rgb(left + right > 0.0 ? right / (left + right) : 0.5));
         };
         const double total = std::accumulate(weights->begin(), weights->end(), 0.0);
         const int all = mix(0, parts.size());
-        return total < 1.0 ? store_blend(Materials::absorbing, all, Rgb(total)) : all;
+        return total < 1.0 ? store_blend(e, Materials::absorbing, all, Rgb(total)) : all;
     };
     const int front = mixed(&Materials::Sides::front);
     return {front, mixed(&Materials::Sides::back)};
@@ -127,7 +132,7 @@ Materials::Sides Bsdfs::read_coating(const Element& e) {
     const Materials::Sides inner = sides(*nested.front());
     for (const int side : {inner.front, inner.back}) refuse_transmission(*nested.front(), side, "coating");
     const auto coated = [&](int side) {
-        return store(Coating(shared(side), inside / outside, scaled(sigma, thickness), specular));
+        return store(Coating(shared(side), inside / outside, scaled(sigma, thickness), specular), parts_of(side));
     };
     const int front = coated(inner.front);
     return {front, coated(inner.back)};

@@ -44,7 +44,7 @@ Materials::Sides Bsdfs::read_perturbed_normal(const Element& e) {
     const auto perturb = [&](int side, bool from_behind) {
         if (side == Materials::absorbing) return Materials::absorbing;
         options.from_behind = from_behind;
-        return store(PerturbedNormal(normal, std::make_shared<const Bsdf>(bsdfs_[static_cast<std::size_t>(side)]), options));
+        return store(PerturbedNormal(normal, shared(side), options), parts_of(side));
     };
     const int front = perturb(inner.front, false);
     return {front, perturb(inner.back, true)};

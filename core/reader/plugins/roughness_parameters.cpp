@@ -10,8 +10,10 @@ namespace {
 
 void check_alpha(Properties& p, const std::string& name, const SurfaceFunction& alpha) {
     const double value = alpha.upper_bound().r;
-    if (alpha.is_constant() && value < 1e-4)
-        p.complain(name, fmt::format("{} is {}, expected at least 0.0001; bsdf 'conductor' is smooth", name, value));
+    if (!(alpha.is_constant() && value < 1e-4)) return;
+    const std::string rough = p.element().attribute("type").value;
+    p.complain(name, fmt::format("{} is {}, expected at least 0.0001; bsdf '{}' is smooth", name, value,
+                                 rough.substr(rough.starts_with("rough") ? 5 : 0)));
 }
 
 bool read_distribution(Properties& p) { return p.choice("distribution", {"beckmann", "ggx"}, "beckmann") == "ggx"; }
@@ -32,19 +34,21 @@ RoughnessParameters read_roughness(Properties& p, const Context& context) {
     if (given(u)) {
         check_alpha(p, "alpha_u", u);
         check_alpha(p, "alpha_v", v);
-        return {ggx, u, v};
+        return {ggx, u, v, false};
     }
     const SurfaceFunction both = given(alpha) ? alpha : Rgb(0.1);
     check_alpha(p, "alpha", both);
-    return {ggx, both, both};
+    return {ggx, both, both, true};
 }
 
 RoughnessParameters read_constant_roughness(Properties& p, const Context& context) {
     RoughnessParameters found = read_roughness(p, context);
     const double u = found.alpha_u.upper_bound().r, v = found.alpha_v.upper_bound().r;
-    if (!found.alpha_u.is_constant() || !found.alpha_v.is_constant())
-        p.complain("alpha", fmt::format("the roughness of {} varies, expected a constant", p.title()));
-    if (u != v)
+    if (!(found.alpha_u.is_constant() && found.alpha_v.is_constant()))
+        p.complain("alpha_u",
+                   fmt::format("alpha_u and alpha_v of {} vary, expected alpha: it is alike in all directions", p.title()),
+                   {"alpha_v"});
+    else if (u != v)
         p.complain(
             "alpha_v",
             fmt::format("alpha_u is {} and alpha_v is {}, expected the same: {} is alike in all directions", u, v, p.title()),

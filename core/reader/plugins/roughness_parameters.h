@@ -10,11 +10,12 @@ namespace neumann::reader {
 struct RoughnessParameters {
     bool ggx;  // otherwise Beckmann
     SurfaceFunction alpha_u, alpha_v;
+    bool is_isotropic;  // by one alpha
 };
 
-// Throws InputError if a constant α is below 10⁻⁴, which Mitsuba would replace by 10⁻⁴.
+// A constant α below 10⁻⁴ is a problem, which Mitsuba would replace by 10⁻⁴.
 RoughnessParameters read_roughness(Properties& p, const Context& context);
-// One constant α for all directions.
+// One α for all directions.
 RoughnessParameters read_constant_roughness(Properties& p, const Context& context);
 
 }  // namespace neumann::reader

@@ -1,5 +1,6 @@
 #include "core/reader/plugins/textures.h"
 
+#include "core/base/printable.h"
 #include "core/image/display.h"
 #include "core/image/image_io.h"
 #include "core/texture/bitmap.h"
@@ -147,6 +148,10 @@ void find_mesh_attributes(const Element& e, const Objects& objects, std::set<con
 class Opened {
 public:
     Opened(const Element& e, const Context& context) : e_(e), open_(context.textures.open) {
+        constexpr std::size_t most_parts = 1024;
+        std::size_t& parts = context.textures.parts;
+        parts = open_.empty() ? 1 : parts + 1;
+        if (parts > most_parts) throw InputError(e.place, fmt::format("a texture is made of more than {} textures", most_parts));
         if (open_.size() >= max_nesting)
             throw InputError(e.place, fmt::format("textures are nested more than {} deep", max_nesting));
         if (!open_.insert(&e).second) throw InputError(e.place, "the texture stands inside itself");
@@ -205,8 +210,8 @@ Texture read_texture(const Element& e, std::optional<Illuminant> illuminant, con
 Texture read_not_negative(const Element& e, const std::string& name, std::optional<Illuminant> illuminant, const Context& context) {
     Texture texture = read_texture(e, illuminant, context);
     if (const Rgb& s = texture.smallest; std::min({s.r, s.g, s.b}) < 0.0)
-        throw InputError(e.place, fmt::format("the texture is negative somewhere, down to {}, expected a {} of at least 0",
-                                              std::min({s.r, s.g, s.b}), name));
+        throw InputError(e.place, fmt::format("the texture is negative somewhere, down to {}, expected {} of at least 0",
+                                              std::min({s.r, s.g, s.b}), with_article(name)));
     return texture;
 }
 

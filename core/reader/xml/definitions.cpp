@@ -69,6 +69,10 @@ std::string Definitions::names() const {
     return all.empty() ? "no parameter is" : "defined: " + join(all);
 }
 
+void Definitions::use(const std::string& name) {
+    if (const auto found = values_.find(name); found != values_.end()) found->second.used = true;
+}
+
 void Definitions::check_used(const std::string& file) const {
     std::vector<std::string> others;
     for (const auto& [name, value] : values_)

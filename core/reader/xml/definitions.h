@@ -18,6 +18,8 @@ public:
     // Replaces each $name, using the longest name that matches; \$ stands for $ itself. Substituted text is not substituted again.
     // Throws InputError if there is no such name.
     void substitute(Attribute& a);
+    // Records that a name was used, if it is defined.
+    void use(const std::string& name);
     // Throws InputError for a -D that was not used.
     void check_used(const std::string& file) const;
 

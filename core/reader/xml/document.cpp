@@ -1,5 +1,6 @@
 #include "core/reader/xml/document.h"
 
+#include "core/base/printable.h"
 #include "core/reader/xml/definitions.h"
 #include "core/reader/xml/grammar.h"
 #include "core/reader/xml/numbers.h"
@@ -32,6 +33,8 @@ public:
         document_.folders.push_back(fs::path(path).parent_path().string());
         document_.files = std::move(scene.files);
         document_.in_memory = std::move(scene.in_memory);
+        for (const std::string& name : scene.used) definitions_.use(name);
+        refuse_other_programs(scene.root);
         document_.root = read_file(path, scene.root);
         if (document_.root.tag != "scene")
             throw InputError(document_.root.place,
@@ -40,6 +43,17 @@ public:
     }
 
 private:
+    // Of scenes that are XML, too.
+    static void refuse_other_programs(const Element& root) {
+        const auto has = [&](const char* tag) {
+            return std::ranges::any_of(root.children, [&](const Element& e) { return e.tag == tag; });
+        };
+        if (root.tag == "scene" && !root.find("version") && (has("camera") || has("mesh")))
+            throw InputError(
+                root.place,
+                "this looks like a scene of Nori, expected one of Mitsuba: <scene version=\"3.0.0\">, with <sensor> in "
+                "place of <camera>, <shape> of <mesh>, and <rgb> of <color>");
+    }
     // The elements of a file.
     Element read_file(const std::string& path, const Element& root);
     Element read_element(const Element& raw, const std::string& parent_tag, int depth);
@@ -60,8 +74,8 @@ private:
     void attempt(Element& e, F&& f) {
         if (!problems_.attempt(e.place, f)) e.broken = true;
     }
-    // Whether files of this version must be upgraded.
-    static bool is_old(const Attribute& version);
+    // The first number of a version.
+    static int version_of(const Attribute& version);
 
     Document& document_;
     Definitions definitions_;
@@ -70,7 +84,8 @@ private:
     // The state of the file being read.
     struct Reading {
         std::vector<std::string> files;  // the chain of includes: each file is included by the one before
-        bool is_old = false;
+        int version = 3;
+        bool is_old() const { return version < 2; }
         // The search path for the folder of a <path>, as in Mitsuba: the folders of the file's <path>s, the last first, then the
         // file's own folder, then the search path of the including file.
         std::vector<std::string> search;
@@ -89,12 +104,13 @@ Element Loader::read_element(const Element& raw, const std::string& parent_tag, 
     Element e{raw.tag, raw.attributes, {}, raw.place};
     if (depth > max_element_depth)
         throw InputError(e.place, fmt::format("elements are nested more than {} deep", max_element_depth));
-    if (reading_.is_old && !parent_tag.empty()) upgrade_tag(e, warnings_);
+    if (reading_.is_old() && !parent_tag.empty()) upgrade_tag(e, warnings_);
+    take_textures_apart(e);
     if (!parent_tag.empty()) check_place(e, parent_tag);
     if (parent_tag.empty() && e.tag != "scene" && !is_object(e.tag))
         throw InputError(e.place, fmt::format("the outermost element is <{}>, expected <scene>", e.tag));
     if (const Attribute* version = parent_tag.empty() ? e.find("version") : nullptr) {
-        reading_.is_old = is_old(*version);
+        reading_.version = version_of(*version);
         // An included file may hold a single object, which then carries the version.
         if (e.tag != "scene") e.attributes.erase(e.attributes.begin() + (version - e.attributes.data()));
     }
@@ -104,7 +120,8 @@ Element Loader::read_element(const Element& raw, const std::string& parent_tag, 
         attempt(e, [&] { check_attributes(e); });
     for (Attribute& a : e.attributes) attempt(e, [&] { definitions_.substitute(a); });
     read_children(raw, e, depth);
-    if (reading_.is_old) attempt(e, [&] { upgrade_parameters(e, warnings_); });
+    if (reading_.is_old()) attempt(e, [&] { upgrade_parameters(e, warnings_); });
+    if (reading_.version < 3) upgrade_from_2(e);
     if (e.tag == "spectrum" && !e.broken) attempt(e, [&] { write_out_spectrum(e, parent_tag, document_, problems_); });
     return e;
 }
@@ -112,7 +129,7 @@ Element Loader::read_element(const Element& raw, const std::string& parent_tag, 
 void Loader::read_children(const Element& raw, Element& parent, int depth) {
     if (!raw.text.empty())
         problems_.add(InputError(parent.place, fmt::format("<{}> contains the text '{}', expected elements only", parent.tag,
-                                                           join(split(raw.text)))),
+                                                           glimpse_of(join(split(raw.text))))),
                       parent.place);
     for (const Element& child : raw.children) {
         const bool is_right = problems_.attempt(parent.place, [&] {
@@ -223,7 +240,7 @@ void Loader::include(const Element& e, Element& parent) {
     }
 }
 
-bool Loader::is_old(const Attribute& version) {
+int Loader::version_of(const Attribute& version) {
     const std::string& text = version.value;
     int numbers[3] = {0, 0, 0}, count = 0;
     const char *at = text.data(), *end = at + text.size();
@@ -238,7 +255,7 @@ bool Loader::is_old(const Attribute& version) {
         throw InputError(version.place, fmt::format("'{}' is not a version, expected for example 3.0.0", text));
     if ((numbers[0] == 0 && numbers[1] < 4) || numbers[0] > 3)
         throw InputError(version.place, fmt::format("scene version {} is not known, expected 0.4 to 3.x", text));
-    return numbers[0] < 2;
+    return numbers[0];
 }
 
 }  // namespace

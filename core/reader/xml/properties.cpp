@@ -1,6 +1,7 @@
 #include "core/reader/xml/properties.h"
 
 #include "core/base/did_you_mean.h"
+#include "core/base/printable.h"
 #include "core/reader/xml/grammar.h"
 #include "core/reader/xml/instead_of.h"
 #include "core/reader/xml/numbers.h"
@@ -13,10 +14,6 @@
 namespace neumann::reader {
 
 namespace {
-
-std::string with_article(const std::string& type) {
-    return (type.find_first_of("aeiou") == 0 || type == "rgb" ? "an " : "a ") + type;
-}
 
 // "a, b or c".
 std::string join_or(const std::vector<std::string>& names) {

@@ -1,28 +1,13 @@
 #include "core/reader/xml/source_text.h"
 
+#include "core/base/input_file.h"
+
 #include <algorithm>
-#include <filesystem>
-#include <fstream>
-#include <sstream>
 
 namespace neumann::reader {
 
-SourceText::SourceText(const std::string& path) : path_(path), line_starts_{0} {
+SourceText::SourceText(const std::string& path) : path_(path), text_(read_input(path, "a scene file")), line_starts_{0} {
     const Location file{path, 0, 0};
-    std::error_code error;
-    if (!std::filesystem::exists(path, error)) throw InputError(file, "there is no such file");
-    if (std::filesystem::is_directory(path, error)) throw InputError(file, "is a folder, expected a scene file");
-    std::ifstream stream(path, std::ios::binary);
-    if (const auto size = std::filesystem::file_size(path, error); !error) {
-        text_.resize(static_cast<std::size_t>(size));
-        stream.read(text_.data(), static_cast<std::streamsize>(text_.size()));
-        text_.resize(static_cast<std::size_t>(stream.gcount()));
-    } else {  // a pipe
-        std::ostringstream content;
-        if (stream && stream.peek() != std::ifstream::traits_type::eof()) content << stream.rdbuf();
-        text_ = content.str();
-    }
-    if (stream.bad() || !stream.is_open()) throw InputError(file, "cannot be read");
     if (text_.starts_with("\xEF\xBB\xBF")) text_.erase(0, 3);
     if (text_.starts_with("\xFF\xFE") || text_.starts_with("\xFE\xFF")) throw InputError(file, "is in UTF-16, expected UTF-8");
     for (std::size_t i = text_.find('\n'); i != std::string::npos; i = text_.find('\n', i + 1)) line_starts_.push_back(i + 1);

@@ -1,5 +1,7 @@
 #include "core/reader/xml/spectra.h"
 
+#include "core/base/input_file.h"
+#include "core/base/printable.h"
 #include "core/colour/blackbody.h"
 #include "core/colour/cie.h"
 #include "core/reader/xml/numbers.h"
@@ -7,13 +9,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
+#include <sstream>
 
 #include <fmt/format.h>
 
 namespace neumann::reader {
 
 namespace {
+
+const std::vector<std::string> spectrum_types = {"blackbody", "d65", "irregular", "regular", "uniform"};
 
 // "400:0.5, 500:0.75".
 class ListWriter {
@@ -27,8 +31,7 @@ private:
 
 // A line holds a wavelength in nm and a value, or nothing; # begins a comment.
 std::string read_file(const std::string& path) {
-    std::ifstream stream(path);
-    if (!stream) throw InputError(Location{path, 0, 0}, "cannot be read");
+    std::istringstream stream(read_input(path));
     ListWriter list;
     double last = 0.0;
     int number = 0;
@@ -39,6 +42,9 @@ std::string read_file(const std::string& path) {
         const Location place{path, number, static_cast<int>(line.find(words.front())) + 1};
         if (words.size() != 2)
             throw InputError(place, fmt::format("the line has {} numbers, expected a wavelength and a value", words.size()));
+        for (const std::string& word : words)
+            if (word.find_first_not_of("+-.0123456789eE") != std::string::npos)
+                throw InputError(place, fmt::format("'{}' is not a number", glimpse_of(word)));
         const double wavelength = parse_number({"", words[0], place});
         if (!list.text().empty() && wavelength <= last)
             throw InputError(place, fmt::format("the wavelength {} follows {}, expected increasing ones", wavelength, last));
@@ -128,11 +134,51 @@ void write_out_object(Element& e, const std::string& type, Problems& problems) {
 
 }  // namespace
 
+SpectrumTable parse_spectrum(const Attribute& a) {
+    SpectrumTable s;
+    for (const std::string& pair : split(a.value)) {
+        const std::size_t colon = pair.find(':');
+        if (colon == std::string::npos) throw InputError(a.place, fmt::format("'{}' is not a pair wavelength:value", pair));
+        s.wavelengths.push_back(parse_number({a.name, pair.substr(0, colon), a.place}));
+        s.values.push_back(parse_number({a.name, pair.substr(colon + 1), a.place}));
+        const std::size_t n = s.wavelengths.size();
+        if (n > 1 && s.wavelengths[n - 1] <= s.wavelengths[n - 2])
+            throw InputError(a.place, fmt::format("the wavelength {} follows {}, expected increasing ones", s.wavelengths[n - 1],
+                                                  s.wavelengths[n - 2]));
+    }
+    if (s.wavelengths.size() < 2)
+        throw InputError(a.place,
+                         fmt::format("found {} of the at least 2 pairs wavelength:value of a spectrum", s.wavelengths.size()));
+    return s;
+}
+
+Rgb spectrum_within_srgb(const SpectrumTable& s, Illuminant illuminant, double largest, Warnings& warnings) {
+    // A neutral spectrum comes out as 1 ± 1e-4 in each channel, by the rounding of the matrix; that is not worth a warning.
+    constexpr double slack = 1e-3;
+    const Rgb c = spectrum_to_rgb(s, illuminant);
+    const Rgb inside = glm::clamp(c, Rgb(0.0), Rgb(largest));
+    if (max_component(glm::abs(c - inside)) > slack * std::max(1.0, max_component(c)))
+        warnings.add("spectrum outside the colours of sRGB, cut to them");
+    return inside;
+}
+
+void take_textures_apart(Element& e) {
+    static const std::vector<std::string> textures = {"bitmap", "checkerboard", "mesh_attribute", "rawconstant"};
+    const Attribute* type = e.find("type");
+    if (!type) return;
+    const auto is_among = [&](const std::vector<std::string>& types) {
+        return std::find(types.begin(), types.end(), type->value) != types.end();
+    };
+    if (e.tag == "spectrum" && is_among(textures))
+        e.tag = "texture";
+    else if (e.tag == "texture" && is_among(spectrum_types) && e.find("name") && !e.find("id"))
+        e.tag = "spectrum";
+}
+
 void write_out_spectrum(Element& e, const std::string& parent_tag, Document& document, Problems& problems) {
     if (e.find("type")) {
-        static const std::vector<std::string> types = {"blackbody", "d65", "irregular", "regular", "uniform"};
         const std::string otherwise = parent_tag == "emitter" ? "0" : "0.5";
-        if (const std::string known = type_of(e, types, otherwise, problems); known != otherwise)
+        if (const std::string known = type_of(e, spectrum_types, otherwise, problems); known != otherwise)
             write_out_object(e, known, problems);
         else
             e = {"float", {e.attribute("name"), {"value", otherwise, e.place}}, {}, e.place};

@@ -2,6 +2,7 @@
 
 #include "core/emitter/sun_radiance.h"
 #include "core/reader/xml/numbers.h"
+#include "core/reader/xml/spectra.h"
 
 #include <fmt/format.h>
 
@@ -95,16 +96,12 @@ void upgrade_film(Element& e, Warnings& warnings) {
         drop(e, {"file_format", "pixel_format", "tonemap_method", "gamma", "exposure", "key", "burn"});
     }
     drop(e, {"attach_log"});
-    for (Element& child : e.children)
-        for (Attribute& a : child.attributes)
-            if (a.name == "name" && a.value == "high_quality_edges") a.value = "sample_border";
 }
 
 void upgrade_sampler(Element& e, Warnings& warnings) {
     const std::string type = type_or_nothing(e);
-    if (type != "sobol" && type != "halton" && type != "hammersley") return;
-    rename_type(e, "ldsampler", warnings);
-    drop(e, {"scramble", "dimension"});
+    if (type == "sobol" || type == "halton" || type == "hammersley") rename_type(e, "ldsampler", warnings);
+    if (type_or_nothing(e) == "ldsampler") drop(e, {"scramble", "dimension"});
 }
 
 // An exponent of 2.2 is treated as the sRGB curve, which it approximates; -1 means sRGB.
@@ -207,6 +204,44 @@ void upgrade_sky(Element& e, Warnings& warnings) {
     warnings.add("old scene file: emitter 'sunsky' turned, for its +y was up");
 }
 
+// Below an angle of 0 no edge is smooth.
+void upgrade_shape(Element& e, Warnings& warnings) {
+    drop(e, {"collapse"});  // several meshes of a file as one, as here
+    const Element* given = find(e, "max_smooth_angle");
+    if (!given || !given->find("value")) return;
+    const Attribute value = given->attribute("value");
+    drop(e, {"max_smooth_angle"});
+    if (parse_number(value) == 0.0 && !find(e, "face_normals"))
+        e.children.push_back({"boolean", {{"name", "face_normals", value.place}, {"value", "true", value.place}}, {}, value.place});
+    else
+        warnings.add(
+            "old scene file: maxSmoothAngle of a shape left out: all of its edges are smooth, or as its normals have them");
+}
+
+// Mitsuba 0.6 has spectra of three values: it integrates a list of wavelengths under equal energy, of light and of surfaces alike,
+// and a single value is that of all three.
+void upgrade_spectra(Element& parent, Warnings& warnings) {
+    for (Element& e : parent.children) {
+        if (e.tag != "spectrum" || e.broken || e.find("type")) continue;
+        const std::string& name = e.attribute("name").value;
+        Attribute& value =
+            *std::find_if(e.attributes.begin(), e.attributes.end(), [](const Attribute& a) { return a.name == "value"; });
+        if (value.value.find(':') != std::string::npos) {
+            const SpectrumTable table = parse_spectrum(value);
+            for (std::size_t i = 0; i < table.values.size(); ++i)
+                if (table.values[i] < 0.0)
+                    throw InputError(value.place,
+                                     fmt::format("{} is negative at {} nm: {}", name, table.wavelengths[i], table.values[i]));
+            const bool is_share = name.ends_with("reflectance") || name.ends_with("transmittance");
+            const Rgb c = spectrum_within_srgb(table, Illuminant::equal_energy, is_share ? 1.0 : INFINITY, warnings);
+            value.value = fmt::format("{}, {}, {}", c.r, c.g, c.b);
+            warnings.add("old scene file: a spectrum taken as its colour under equal energy, as Mitsuba 0.6 does");
+        }
+        std::erase_if(e.attributes, [](const Attribute& a) { return a.name != "name" && a.name != "value"; });
+        e.tag = "rgb";
+    }
+}
+
 // `strictNormals` is dropped: Mitsuba 3 has no test for shading normals that disagree with the surface.
 void upgrade_integrator(Element& e, Warnings& warnings) {
     if (drop(e, {"strict_normals"})) warnings.add("old scene file: strictNormals of an integrator left out");
@@ -218,6 +253,13 @@ void upgrade_tag(Element& e, Warnings& warnings) {
     if (e.tag != "lookAt") return;
     e.tag = "lookat";
     warnings.add("old scene file: <lookAt> taken as <lookat>");
+}
+
+void upgrade_from_2(Element& e) {
+    if (e.tag != "film") return;
+    for (Element& child : e.children)
+        for (Attribute& a : child.attributes)
+            if (a.name == "name" && a.value == "high_quality_edges") a.value = "sample_border";
 }
 
 void upgrade_parameters(Element& e, Warnings& warnings) {
@@ -242,7 +284,8 @@ void upgrade_parameters(Element& e, Warnings& warnings) {
     if (e.tag == "emitter") upgrade_sky(e, warnings);
     if (e.tag == "texture" && type_or_nothing(e) == "bitmap") upgrade_bitmap(e, warnings);
     if (e.tag == "texture" && type_or_nothing(e) == "vertexcolors") upgrade_vertex_colors(e, warnings);
-    if (e.tag == "shape") drop(e, {"collapse"});  // several meshes of a file as one, as here
+    if (e.tag == "shape") upgrade_shape(e, warnings);
+    upgrade_spectra(e, warnings);
 }
 
 }  // namespace neumann::reader

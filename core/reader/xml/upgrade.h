@@ -8,9 +8,11 @@
 
 namespace neumann::reader {
 
-// Call upgrade_tag() before an element's place is checked, and the other function when all of its contents are read. `warnings` say
-// what was upgraded. Throws InputError for features that no longer have a meaning.
+// Call upgrade_tag() before an element's place is checked, and upgrade_parameters() when all of its contents are read. `warnings`
+// say what was upgraded. Throws InputError for features that no longer have a meaning.
 void upgrade_tag(Element& e, Warnings& warnings);
 void upgrade_parameters(Element& e, Warnings& warnings);
+// The names of Mitsuba 2, after that.
+void upgrade_from_2(Element& e);
 
 }  // namespace neumann::reader

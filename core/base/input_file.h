@@ -1,0 +1,19 @@
+// Files that readers open.
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace neumann {
+
+// What is wrong with it, "is empty, expected a scene file", unless it is a regular file that can be read and has something in it:
+// pipes and devices may have no end, and Git LFS leaves a pointer where it has not brought the file. `expected`: "a scene file".
+std::optional<std::string> why_not_input(const std::string& path, const std::string& expected = "a file");
+
+// Throws InputError, "path: …".
+void expect_input(const std::string& path, const std::string& expected = "a file");
+
+// Its bytes. Throws InputError.
+std::string read_input(const std::string& path, const std::string& expected = "a file");
+
+}  // namespace neumann
