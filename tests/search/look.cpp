@@ -20,13 +20,13 @@ constexpr int bounces = 3;
 struct Effort {
     std::uint64_t samples;  // of paths, of all pixels
     std::uint32_t replicates;
-    std::uint64_t samples_of_fields;  // likewise
+    // Of fields only the replicates become more, so that the value with its bias stays and has to be as far off as is stated.
     std::uint32_t replicates_of_fields;
-    int patches, directions;
     int patches_of_walks;  // that read fields
 };
-constexpr std::array<Effort, 3> efforts{
-    {{4096, 8, 2048, 8, 150, 128, 100}, {131072, 32, 4096, 16, 600, 512, 300}, {524288, 64, 8192, 16, 1200, 1024, 600}}};
+constexpr std::array<Effort, 3> efforts{{{4096, 8, 8, 100}, {131072, 32, 32, 300}, {524288, 64, 64, 600}}};
+constexpr std::uint64_t samples_of_field = 256;  // of all pixels, in a replicate
+constexpr std::uint32_t patches = 150, directions_of_field = 16;
 constexpr int directions_of_walks = 256;
 
 Goal goal(const Method& method, const Film& film, const Look& look) {
@@ -36,8 +36,8 @@ Goal goal(const Method& method, const Film& film, const Look& look) {
     goal.seed = look.seed;
     const auto pixels = static_cast<std::uint64_t>(film.crop_width) * static_cast<std::uint64_t>(film.crop_height);
     goal.replicates = has_fields(method) ? effort.replicates_of_fields : effort.replicates;
-    goal.samples = std::bit_floor(
-        std::max<std::uint64_t>((has_fields(method) ? effort.samples_of_fields : effort.samples) / pixels, *goal.replicates));
+    goal.samples = std::bit_floor(std::max<std::uint64_t>(
+        (has_fields(method) ? samples_of_field * *goal.replicates : effort.samples) / pixels, *goal.replicates));
     goal.only_pictures = !look.thorough;
     return goal;
 }
@@ -47,7 +47,8 @@ Goal goal(const Method& method, const Film& film, const Look& look) {
 std::string as_looked_at(const std::string& method, const Look& look) {
     const Effort& effort = efforts.at(look.number);
     const Method as_given = read_method(method);
-    if (has_fields(as_given)) return fmt::format("{}:patches={}:directions={}", method, effort.patches, effort.directions);
+    if (has_fields(as_given))
+        return fmt::format("{}:patches={}:directions={}", method, patches, directions_of_field * effort.replicates_of_fields);
     if (std::holds_alternative<method::Guided>(as_given) || std::holds_alternative<method::Corrected>(as_given))
         return fmt::format("{}:patches={}:directions={}", method, effort.patches_of_walks, directions_of_walks);
     return method;

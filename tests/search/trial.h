@@ -17,7 +17,7 @@ struct Finding {
     bool same_as(const Finding& f) const { return kind == f.kind && method == f.method && other == f.other; }
 };
 
-// How closely methods look at a scene: each time with other seeds, and more samples and patches.
+// How closely methods look at a scene: each time with other seeds and more samples.
 constexpr std::size_t looks = 3;
 
 struct Trial {
