@@ -1,5 +1,6 @@
 #include "apps/processes/helper.h"
 
+#include "apps/commands/interrupt.h"
 #include "apps/commands/limits.h"
 #include "apps/files/json_text.h"
 #include "apps/processes/launch.h"
@@ -13,7 +14,6 @@
 #include <nlohmann/json.hpp>
 
 #include <chrono>
-#include <csignal>
 #include <cstring>
 #include <optional>
 #include <span>
@@ -150,8 +150,7 @@ private:
 
 int help(Processes& processes) {
     // Batch systems and terminals send these to all processes; the first one then ends the render, and this one.
-    std::signal(SIGINT, SIG_IGN);
-    std::signal(SIGTERM, SIG_IGN);
+    ignore_interrupts();
     Helper(processes).run();
     return 0;
 }
