@@ -20,8 +20,9 @@ namespace {
 // Seconds. An interrupted render that has run for longer stops at once; otherwise it goes on to a number of samples that can be
 // repeated, and to the end of its first replicate.
 constexpr double patience = 3.0;
-// Beyond a time limit a render is cut off; but not the first sample a pixel of the walk, the plainest of methods.
-double cut_off(double seconds) { return 1.1 * seconds + 0.5; }
+// Beyond a time limit a render is cut off. Without its first replicate there would be no picture: that one is given up late, and
+// that of the walk, the plainest of methods, never.
+double cut_off(double seconds, bool is_first) { return is_first ? 4.0 * seconds + 10.0 : 1.1 * seconds + 0.5; }
 
 // What is there before the first part.
 RenderedSeries beginning(const PictureSampler& sampler, std::optional<RenderedSeries>& from) {
@@ -134,7 +135,7 @@ RenderedSeries render_series(const Scene& scene, const PictureSampler::Settings&
         if (goal.seconds && done > 0) {
             const double each = seconds_so_far() / static_cast<double>(done), left = *goal.seconds - seconds_so_far();
             while (block > 1 && static_cast<double>(block) * each > left) block /= 2;
-            const bool is_late = seconds_so_far() > cut_off(*goal.seconds);
+            const bool is_late = seconds_so_far() > cut_off(*goal.seconds, false);
             if ((each > left && (repeatable(done) || is_late)) || outgrown(done)) {
                 series.outcome = Outcome::time_reached;
                 break;
@@ -142,7 +143,7 @@ RenderedSeries render_series(const Scene& scene, const PictureSampler::Settings&
         }
 
         const bool has_end = goal.seconds && (done > 0 || settings.generator != PathGenerator::walk);
-        const auto is_late = [&] { return has_end && seconds_so_far() > cut_off(*goal.seconds); };
+        const auto is_late = [&] { return has_end && seconds_so_far() > cut_off(*goal.seconds, done == 0); };
         Watch of_block;
         of_block.progress = [&](const RenderProgress& part) {
             report(static_cast<double>(done) + static_cast<double>(block) * part.fraction);
