@@ -70,9 +70,10 @@ void Checkpoints::save(const std::function<void()>& write, const std::string& be
     try {
         write();
     } catch (const RunError& error) {
-        throw RunError(has_saved_
+        if (!has_saved_) throw;
+        throw RunError(saved_render_in(folder_.path().string())
                            ? fmt::format("{}\nThe state before it is whole: {} goes on from {}", error.what(), resuming_, before)
-                           : std::string(error.what()));
+                           : fmt::format("{}\nThe state before it, of {}, is gone as well", error.what(), before));
     }
     has_saved_ = keeps_ = true;
     writing_seconds_ = clock.seconds();

@@ -2,15 +2,15 @@
 
 #include "apps/commands/parse_definitions.h"
 #include "apps/commands/print_warnings.h"
+#include "apps/files/new_file.h"
 #include "core/base/error.h"
 #include "core/reader/convert_scene.h"
 
 #include <fmt/format.h>
 
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
+#include <string_view>
+#include <system_error>
 
 namespace neumann {
 
@@ -36,11 +36,9 @@ public:
         if (!folder.empty() && fs::create_directories(folder, error)) created_.push_back(folder);
         if (error) throw InputError(fmt::format("{}: cannot be written: {}", folder.string(), error.message()));
         written_.push_back(path);
-        errno = 0;
-        std::ofstream file(partial(path), std::ios::binary);
-        file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-        file.close();
-        if (!file) throw RunError(fmt::format("{}: cannot be written: {}", path.string(), std::strerror(errno != 0 ? errno : EIO)));
+        const std::string_view piece = bytes;
+        if (const int failed = write_new_file(partial(path), {&piece, 1}); failed != 0)
+            throw RunError(fmt::format("{}: cannot be written: {}", path.string(), std::generic_category().message(failed)));
     }
     void commit() {
         for (const fs::path& path : written_) {

@@ -1,5 +1,6 @@
 #include "apps/files/output_folder.h"
 
+#include "apps/files/new_file.h"
 #include "core/base/error.h"
 
 #include <fcntl.h>
@@ -51,26 +52,6 @@ bool is_of_blame(std::string_view name) {
 bool is_of_rows(std::string_view name) {
     static const std::regex pattern("rows_[0-9]{3,}_[0-9]{5,}\\.kept");
     return std::regex_match(name.begin(), name.end(), pattern);
-}
-
-// 0, or the error number.
-int write_all(int file, std::span<const std::string_view> pieces) {
-    for (std::string_view bytes : pieces)
-        while (!bytes.empty()) {
-            const ssize_t count = ::write(file, bytes.data(), bytes.size());
-            if (count < 0 && errno == EINTR) continue;
-            if (count < 0) return errno;
-            bytes.remove_prefix(static_cast<std::size_t>(count));
-        }
-    return ::fsync(file) == 0 ? 0 : errno;
-}
-
-int write_file(const fs::path& path, std::span<const std::string_view> pieces) {
-    const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-    if (file < 0) return errno;
-    const int written = write_all(file, pieces);
-    const int closed = ::close(file) == 0 ? 0 : errno;
-    return written != 0 ? written : closed;
 }
 
 // Onto the disk.
@@ -153,10 +134,11 @@ OutputFolder::OutputFolder(const fs::path& path, std::string_view command, bool 
             remove_leftovers();
         }
         // Finds read-only file systems and the like before anything is computed.
-        const fs::path probe = partial("probe");
-        const int error = write_file(probe, {});
+        std::string probe = (path_ / ".probe-XXXXXX").string();
+        const int file = ::mkostemp(probe.data(), O_CLOEXEC);
+        if (file < 0) throw InputError(cannot_be_written(path_, errno));
+        ::close(file);
         ::unlink(probe.c_str());
-        if (error != 0) throw InputError(cannot_be_written(path_, error));
     } catch (...) {
         discard();
         throw;
@@ -222,18 +204,18 @@ void OutputFolder::write(const std::string& name, std::string_view bytes) { writ
 
 void OutputFolder::write_pieces(const std::string& name, std::span<const std::string_view> pieces) {
     begin(name);
-    end(name, write_file(partial(name), pieces));
+    end(name, write_new_file(partial(name), pieces));
 }
 
 void OutputFolder::write_by(const std::string& name, const std::function<void(const fs::path&)>& make) {
     begin(name);
-    int error = 0;
-    try {
-        make(partial(name));
-        error = flush(partial(name));
-    } catch (const std::system_error& failed) {
-        error = failed.code().value();
-    }
+    int error = write_new_file(partial(name), {});  // into which it is made
+    if (error == 0) try {
+            make(partial(name));
+            error = flush(partial(name));
+        } catch (const std::system_error& failed) {
+            error = failed.code().value();
+        }
     end(name, error);
 }
 

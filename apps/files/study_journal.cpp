@@ -1,5 +1,6 @@
 #include "apps/files/study_journal.h"
 
+#include "apps/files/new_file.h"
 #include "core/base/error.h"
 
 #include <fcntl.h>
@@ -107,9 +108,9 @@ void StudyJournal::read() {
         throw InputError(fmt::format("{}: damaged, and cannot be resumed: {}", lines_path_.string(), e.what()));
     }
     if (study.is_null()) throw InputError(fmt::format("{}: was cut off before anything was done", lines_path_.string()));
-    lines_ = ::open(lines_path_.c_str(), O_RDWR | O_CLOEXEC);
+    lines_ = ::open(lines_path_.c_str(), O_RDWR | O_NOFOLLOW | O_CLOEXEC);
     if (lines_ < 0 || ::ftruncate(lines_, whole) != 0 || ::lseek(lines_, 0, SEEK_END) < 0) cannot_be_written(lines_path_);
-    pictures_ = ::open(pictures_path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    pictures_ = ::open(pictures_path_.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666);
     if (pictures_ < 0) cannot_be_written(pictures_path_);
 }
 
@@ -123,9 +124,9 @@ void StudyJournal::expect_same(const Json& now) const {
 void StudyJournal::begin(const Json& new_study, const Json& new_plan) {
     study = new_study;
     plan = new_plan;
-    lines_ = ::open(lines_path_.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    lines_ = open_new_file(lines_path_);
     if (lines_ < 0) cannot_be_written(lines_path_);
-    pictures_ = ::open(pictures_path_.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    pictures_ = open_new_file(pictures_path_);
     if (pictures_ < 0) cannot_be_written(pictures_path_);
     append({{"study", study}, {"plan", plan}});
 }

@@ -5,12 +5,15 @@
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <optional>
 #include <set>
 #include <sstream>
+#include <string_view>
+#include <utility>
 
 namespace neumann::output_folder_test {
 
@@ -194,18 +197,36 @@ TEST_F(OutputFolderTest, WhatAnotherCommandWroteIsNotReplaced) {
     EXPECT_EQ(refusal(base_), "accepted");
 }
 
+// No file may become larger than so many bytes: writes fail as they do on a full disk.
+class SmallDisk {
+public:
+    explicit SmallDisk(rlim_t bytes) : old_action_(std::signal(SIGXFSZ, SIG_IGN)) {
+        getrlimit(RLIMIT_FSIZE, &old_limit_);
+        const rlimit limit{bytes, old_limit_.rlim_max};
+        setrlimit(RLIMIT_FSIZE, &limit);
+    }
+    ~SmallDisk() {
+        setrlimit(RLIMIT_FSIZE, &old_limit_);
+        std::signal(SIGXFSZ, old_action_);
+    }
+
+private:
+    void (*old_action_)(int);
+    rlimit old_limit_{};
+};
+
 TEST_F(OutputFolderTest, AFullDiskIsSaidAndLeavesTheOldSet) {
     put(base_ / "bounce_000.exr", "old");
     put(base_ / "run.json", "old");
     {
         OutputFolder folder(base_, "render");
         folder.write("run.json", "new");
-        fs::create_symlink("/dev/full", base_ / ".bounce_000.exr.partial");
+        const SmallDisk disk(1000);
         try {
-            folder.write("bounce_000.exr", "new");
+            folder.write("bounce_000.exr", std::string(5000, 'x'));
             FAIL();
         } catch (const RunError& error) {
-            EXPECT_EQ(error.what(), (base_ / "bounce_000.exr").string() + ": cannot be written: No space left on device");
+            EXPECT_EQ(error.what(), (base_ / "bounce_000.exr").string() + ": cannot be written: File too large");
         }
     }
     EXPECT_EQ(names_in(base_), (Names{"bounce_000.exr", "run.json"}));
@@ -214,24 +235,48 @@ TEST_F(OutputFolderTest, AFullDiskIsSaidAndLeavesTheOldSet) {
 }
 
 TEST_F(OutputFolderTest, AFileCutOffInTheMiddleIsSaidAndRemoved) {
-    const auto old_action = std::signal(SIGXFSZ, SIG_IGN);
-    rlimit old_limit{};
-    ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &old_limit), 0);
-    const rlimit limit{1000, old_limit.rlim_max};
     std::string message;
     {
         OutputFolder folder(base_ / "new", "render");
-        ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &limit), 0);
+        const SmallDisk disk(1000);
         try {
             folder.write("bounce_000.exr", std::string(5000, 'x'));
         } catch (const RunError& error) {
             message = error.what();
         }
-        setrlimit(RLIMIT_FSIZE, &old_limit);
     }
-    std::signal(SIGXFSZ, old_action);
     EXPECT_EQ(message, (base_ / "new" / "bounce_000.exr").string() + ": cannot be written: File too large");
     EXPECT_EQ(names_in(base_), Names{});
+}
+
+// What somebody has put where a file is written first is neither written into nor waited for.
+TEST_F(OutputFolderTest, LinksAndPipesAreNotWrittenInto) {
+    const fs::path path = base_ / "a", treasure = base_ / "treasure";
+    put(treasure, "gold");
+    fs::create_directories(path);
+    fs::create_symlink(treasure, path / ".probe.partial");
+    {
+        OutputFolder folder(path, "render");
+        for (const char* name : {"run.json", "bounce_000.exr", "series.csv", "render.unfinished"})
+            fs::create_symlink(treasure, path / ("." + std::string(name) + ".partial"));
+        fs::create_symlink(treasure, path / "bounce_000.exr");
+        ASSERT_EQ(mkfifo((path / ".sum_000.exr.partial").c_str(), 0600), 0);
+        folder.write("run.json", "{}");
+        folder.write("bounce_000.exr", "x");
+        folder.write("sum_000.exr", "y");
+        folder.write_by("series.csv", [](const fs::path& to) { put(to, "z"); });
+        const std::string_view state = "s";
+        folder.save({&state, 1});
+        folder.commit();
+    }
+    EXPECT_EQ(text_of(treasure), "gold");
+    for (const auto& [name, text] :
+         {std::pair("run.json", "{}"), {"bounce_000.exr", "x"}, {"sum_000.exr", "y"}, {"series.csv", "z"}}) {
+        EXPECT_TRUE(fs::is_regular_file(fs::symlink_status(path / name))) << name;
+        EXPECT_EQ(text_of(path / name), text);
+    }
+    ASSERT_EQ(mkfifo((base_ / ".probe.partial").c_str(), 0600), 0);
+    const OutputFolder beside(base_, "render");
 }
 
 }  // namespace neumann::output_folder_test
