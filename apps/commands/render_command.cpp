@@ -21,12 +21,14 @@
 #include "core/image/image_io.h"
 #include "core/reader/read_scene.h"
 #include "operators/methods/render.h"
+#include "operators/pictures/rendered_series.h"
 
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <functional>
 
 namespace neumann {
 
@@ -63,7 +65,8 @@ void expect_nothing_unfinished(const std::string& folder) {
 }
 
 // What is there already, and can be gone on with to the goal.
-std::optional<RenderState> read_state(const RenderRequest& request, const Scene& scene) {
+std::optional<RenderState> read_state(const RenderRequest& request, const Scene& scene,
+                                      const std::function<void(const std::string&)>& tell) {
     if (request.resume.empty()) return std::nullopt;
     if (scene.hash != request.scene_hash)
         throw InputError(fmt::format("--resume {}: {} is not the scene that it began with, or has changed since", request.resume,
@@ -75,16 +78,20 @@ std::optional<RenderState> read_state(const RenderRequest& request, const Scene&
     if (!state.series.merged.empty())
         throw InputError(
             fmt::format("--resume {}: was merged of several seeds; render another seed and merge that, too", request.resume));
-    const std::uint64_t there = state.series.samples, size = state.render.replicate_size;
+    const std::uint64_t there = state.series.samples;
     const SeriesMoments& moments = state.series.moments;
     if (moments.width() != scene.film.crop_width || moments.height() != scene.film.crop_height)
         throw InputError(fmt::format("{}: damaged: its pictures have another size", file->string()));
     if (const auto& samples = request.goal.samples) {
-        if (*samples < there)
+        const std::uint64_t whole = in_whole_replicates(*samples);
+        if (whole < there)
             throw InputError(fmt::format("--spp {}: {} has {} samples a pixel already", *samples, request.resume, there));
-        if (*samples % size != 0)
-            throw InputError(fmt::format("--spp {}: {} samples {} at once for each pixel, expected a multiple of that", *samples,
-                                         request.resume, size));
+        if (const std::uint32_t wanted = replicate_size(whole); wanted != state.render.replicate_size) {
+            tell(fmt::format(
+                "The {} samples a pixel of {} are in replicates of {}, and {} are better in replicates of {}: it begins anew",
+                there, request.resume, state.render.replicate_size, whole, wanted));
+            return std::nullopt;
+        }
     }
     return state;
 }
@@ -148,7 +155,6 @@ int render_command(const RenderRequest& given) {
         throw InputError(fmt::format("-o {}: is the reference, which would be lost; expected another folder", request.output));
     if (request.resume.empty()) expect_nothing_unfinished(request.output);
     const Stopwatch clock;
-    catch_interrupts();
     std::optional<LivePage> live;
     if (request.live) {
         live.emplace(*request.live);
@@ -166,8 +172,9 @@ int render_command(const RenderRequest& given) {
 
     const auto scene = std::make_shared<const Scene>(read_scene(request.scene, request.definitions, {.lenient = request.lenient}));
     for (const Vec2& p : paths.pixels) pixel_number(scene->film, static_cast<int>(p.x), static_cast<int>(p.y), "--paths");
+    catch_interrupts();  // nothing was written before
     std::optional<OutputFolder> folder(std::in_place, request.output, "render");
-    std::optional<RenderState> state = read_state(request, *scene);
+    std::optional<RenderState> state = read_state(request, *scene, watch.tell);
     const auto crew = launched_crew(
         {std::filesystem::absolute(request.scene).string(), request.definitions, request.lenient, scene->hash}, request.threads);
     const double reading_seconds = clock.seconds();

@@ -44,7 +44,7 @@ std::uint32_t choose_replicate_size(const SamplingGoal& goal, const Method& meth
                                     const RenderJob& job) {
     if (job.saving.from) return job.saving.from->render.replicate_size;
     if (job.goal.replicates) return share_of_replicate(job.goal);
-    if (goal.samples) return replicate_size(*goal.samples);
+    if (goal.samples) return replicate_size(*goal.samples);  // which are whole replicates
     if (!goal.seconds) return largest_replicate;
     const Film& film = job.scene.film;
     const Split& split = settings.walk.split;
@@ -79,7 +79,9 @@ std::vector<std::pair<double, FurnaceWalk>> furnaces(const Roulette& roulette, d
 
 SamplingGoal sampling_goal(const Goal& goal) {
     const Goal limits = with_default_limits(goal);
-    return {limits.samples, limits.seconds, limits.relative_error};
+    SamplingGoal to_reach{limits.samples, limits.seconds, limits.relative_error};
+    if (to_reach.samples && !goal.replicates) to_reach.samples = in_whole_replicates(*to_reach.samples);
+    return to_reach;
 }
 
 // The replicates of a part, and of no other.
@@ -257,15 +259,17 @@ AsSeries as_series(const RenderedSeries& sampled, SeriesReport report, const Met
     return {std::move(series), moments};
 }
 
-// For --tail the pilot has chosen N. If the rendered rest is still too large, sample() renders again with a larger N.
+// For --tail the pilot has chosen N. If the rendered rest is still too large, sample() renders again with a larger N; and with
+// larger replicates, if the time is enough for more of the small ones that a pilot chose than can be repeated.
 struct Sampled {
     RenderedSeries series;
     SeriesReport report;
 };
-Sampled sample(const Method& method, SamplingSettings& settings, const SamplingGoal& goal, RestVerdict verdict,
-               const RenderJob& job, double& setup_seconds) {
+Sampled sample(const Method& method, SamplingSettings& settings, SamplingGoal goal, RestVerdict verdict, const RenderJob& job,
+               double& setup_seconds) {
     std::optional<RenderedSeries> from;
     if (job.saving.from) from = std::move(job.saving.from->series);
+    const bool goes_on = from.has_value();
     for (;;) {
         const int N = settings.walk.bounces;
         check_memory(job.goal, job.scene.film, N, settings.quantities());
@@ -291,6 +295,14 @@ Sampled sample(const Method& method, SamplingSettings& settings, const SamplingG
         const auto helpers = job.watch.crew ? job.watch.crew->begin(record, job.goal.colors) : nullptr;
         RenderedSeries series = render_series(job.scene, settings, goal, watch,
                                               {std::exchange(from, std::nullopt), keep, job.saving.longest_part}, helpers.get());
+        const auto larger = goes_on || watch.stop() ? std::nullopt : larger_replicates(series, goal);
+        if (larger) {
+            watch.tell(fmt::format("It is faster than in a pilot: once more with {} samples a pixel in a replicate, in place of {}",
+                                   *larger, settings.replicate_size));
+            *goal.seconds -= series.seconds;
+            settings.replicate_size = *larger;
+            continue;
+        }
         SeriesReport report = report_series(job.scene, series, verdict);
         const double tail = job.goal.tail.value_or(0.0);
         if (!job.goal.tail || job.goal.bounces || watch.stop() || verdict != RestVerdict::measured ||
@@ -322,6 +334,10 @@ BounceSeries render_by_paths(const Method& method, const RenderJob& job) {
     settings.walk.bounces = choose_bounces(job);
 
     SamplingGoal to_reach = sampling_goal(goal);
+    if (goal.samples && *goal.samples != *to_reach.samples)
+        job.watch.tell(
+            fmt::format("{} samples a pixel in place of {}: whole replicates of {}, which have less error than smaller ones",
+                        *to_reach.samples, *goal.samples, replicate_size(*to_reach.samples)));
     double setup_seconds = goal.spent;
     const Stopwatch clock;
     if (set_up(method, job, settings)) setup_seconds += clock.seconds();

@@ -50,9 +50,21 @@ Checkpoint make_checkpoint(const RenderedSeries& series, const Watch& watch) {
 }
 
 std::uint32_t replicate_size(std::uint64_t samples) {
-    std::uint32_t size = largest_replicate;
-    while (size > 1 && (samples % size != 0 || samples / size < fewest_replicates)) size /= 2;
-    return size;
+    const std::uint64_t most = samples / fewest_replicates;
+    return static_cast<std::uint32_t>(std::bit_floor(std::clamp<std::uint64_t>(most, 1, largest_replicate)));
+}
+
+std::uint64_t in_whole_replicates(std::uint64_t samples) {
+    const std::uint64_t size = replicate_size(samples);
+    return (samples + size - 1) / size * size;
+}
+
+std::optional<std::uint32_t> larger_replicates(const RenderedSeries& series, const SamplingGoal& goal) {
+    if (series.outcome != Outcome::time_reached || !goal.seconds || series.samples == 0) return std::nullopt;
+    const double left = *goal.seconds - series.seconds, affordable = left / series.seconds * static_cast<double>(series.samples);
+    if (!(affordable > static_cast<double>(series.samples))) return std::nullopt;
+    const std::uint32_t size = replicate_size(static_cast<std::uint64_t>(affordable));
+    return size > series.replicate_size ? std::optional(size) : std::nullopt;
 }
 
 RenderedSeries render_series(const Scene& scene, const PictureSampler::Settings& settings, const SamplingGoal& goal,
@@ -79,8 +91,11 @@ RenderedSeries render_series(const Scene& scene, const PictureSampler::Settings&
         watch.progress(progress);
     };
 
-    // Whether --spp with this number of samples gives the same replicate size.
-    const auto repeatable = [&](std::uint64_t done) { return replicate_size(done * size) == size; };
+    // Whether --spp with this number of samples gives the same replicate size, or one that goes on from smaller replicates has as
+    // many as that.
+    const auto repeatable = [&](std::uint64_t done) { return replicate_size(done * size) >= size; };
+    const bool may_outgrow = !goal.samples && series.samples == 0;
+    const auto outgrown = [&](std::uint64_t done) { return may_outgrow && replicate_size((done + 1) * size) > size; };
     // A block is at most a sixteenth of the finished replicates: few nodes are kept, and dropping a block loses little.
     const auto block_after = [&](std::uint64_t done) {
         std::uint64_t block = std::bit_floor(std::max<std::uint64_t>(done / 16, 1));
@@ -112,7 +127,7 @@ RenderedSeries render_series(const Scene& scene, const PictureSampler::Settings&
         if (goal.seconds && done > 0) {
             const double each = seconds_so_far() / static_cast<double>(done), left = *goal.seconds - seconds_so_far();
             while (block > 1 && static_cast<double>(block) * each > left) block /= 2;
-            if (each > left && repeatable(done)) {
+            if ((each > left && repeatable(done)) || outgrown(done)) {
                 series.outcome = Outcome::time_reached;
                 break;
             }

@@ -53,17 +53,26 @@ struct Continuation {
     double longest_part = std::numeric_limits<double>::infinity();  // seconds; but a part has at least one replicate
 };
 
-// Samples per pixel in one replicate: the largest power of two up to 32 that divides the samples into at least 4 replicates. Larger
+// Samples per pixel in one replicate: the largest power of two up to 32 of which there are at least 4 replicates. Larger
 // replicates have less error (stratification), but more replicates estimate it better: the 95% interval is ±12.7 standard errors
 // with 2 replicates and ±3.2 with 4.
 constexpr std::uint32_t largest_replicate = 32, fewest_replicates = 4;
 std::uint32_t replicate_size(std::uint64_t samples);
+// So many samples, or the next number that is a whole number of such replicates: smaller ones, which divide any number, would have
+// more error with as many samples than large ones with fewer.
+std::uint64_t in_whole_replicates(std::uint64_t samples);
 
 // A render that is stopped by time or error ends at a number of samples from which replicate_size() gives the same replicate size
-// again, and so does one that is interrupted, unless that would take long. An interrupted render drops the samples that not all
-// pixels have; if that is all of them, it renders one sample per pixel. The bits do not depend on how a render was cut, nor on
-// the helpers, and the seconds of the goal are those of all parts.
+// again, and so does one that is interrupted, unless that would take long. If the time is enough for more replicates than that,
+// because they are small, it ends before the time is up: larger replicates would be better (larger_replicates()). One that goes on
+// from what is there keeps its replicates, whatever their number. An interrupted render drops the samples that not all pixels
+// have; if that is all of them, it renders one sample per pixel. The bits do not depend on how a render was cut, nor on the
+// helpers, and the seconds of the goal are those of all parts.
 RenderedSeries render_series(const Scene& scene, const PictureSampler::Settings& settings, const SamplingGoal& goal,
                              const Watch& watch = {}, Continuation continuation = {}, Helpers* helpers = nullptr);
+
+// The size of replicates with which to render anew what ended before its time was up: if more time is left for that than it has
+// taken. Otherwise nothing.
+std::optional<std::uint32_t> larger_replicates(const RenderedSeries& series, const SamplingGoal& goal);
 
 }  // namespace neumann

@@ -1,5 +1,7 @@
 #include "operators/study/effort.h"
 
+#include "operators/pictures/rendered_series.h"
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -36,6 +38,13 @@ std::uint64_t whole_nets(double samples) {
     std::uint64_t spacing = 1;
     while (samples >= 16.0 * static_cast<double>(spacing)) spacing *= 2;
     return std::max<std::uint64_t>(1, static_cast<std::uint64_t>(std::llround(samples / static_cast<double>(spacing)))) * spacing;
+}
+
+std::optional<std::uint32_t> replicates_of_nets(std::uint64_t samples) {
+    if (whole_nets(static_cast<double>(samples)) != samples) return std::nullopt;
+    std::uint64_t size = largest_replicate;
+    while (size > 1 && (samples % size != 0 || samples / size < fewest_replicates)) size /= 2;
+    return static_cast<std::uint32_t>(samples / size);
 }
 
 double affordable_level(std::span<const double> measured, double growth, double seconds) {

@@ -32,9 +32,11 @@ bool patches_are_given(const Method& method);
 // An effort with these samples per pixel, and the patches and rays of the level with the nearest number of samples.
 Effort field_effort_of_samples(std::uint64_t samples);
 
-// The nearest of 1, 2, … 8 and then (8 + j) 2^k, j < 8. Such a number is at least four replicates of 2 to 32 points
-// (rendered_series.h), and neighbouring ones differ by at most an eighth.
+// The nearest of 1, 2, … 8 and then (8 + j) 2^k, j < 8. Such a number is at least four replicates of 2 to 32 points, and
+// neighbouring ones differ by at most an eighth, which is finer than what a render by itself rounds to (rendered_series.h).
 std::uint64_t whole_nets(double samples);
+// The number of these replicates; nothing if it is another number.
+std::optional<std::uint32_t> replicates_of_nets(std::uint64_t samples);
 
 // The level, at least 0, that takes this many seconds. `measured`: seconds of levels 0, 1, …, at least one. Between these the
 // logarithm is interpolated; beyond them each level is assumed to take `growth` > 1 times as long as the previous one.

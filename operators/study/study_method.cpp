@@ -25,6 +25,8 @@ std::optional<BounceSeries> run_method(const StudyMethod& method, const Effort& 
         Goal goal;
         goal.bounces = bounces;
         goal.samples = effort.samples;
+        if (!has_fields(method.method) && !std::holds_alternative<method::Auto>(method.method))
+            goal.replicates = replicates_of_nets(effort.samples);
         goal.seed = seed;
         goal.only_pictures = true;
         BounceSeries series = method.own ? render_by_own(method.own, scene, effort.samples, bounces, seed, watch)

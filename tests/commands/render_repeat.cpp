@@ -75,8 +75,7 @@ TEST_F(RenderRepeat, StoppedByErrorBeforeAShortTime) {
     expect_repeatable("a");
 }
 
-// 1001 samples are single-sample replicates; the error stops them at a power of two, or with the next replicate if only that can be
-// repeated.
+// 1001 samples are replicates of 32; the error stops them at a power of two.
 TEST_F(RenderRepeat, StoppedByErrorBeforeAnOddNumberOfSamples) {
     render("scene.xml", "a", {"-n", "1", "--spp", "1001", "--error", "0.2", "--quiet"});
     SCOPED_TRACE(run_json("a").at("samples").dump());

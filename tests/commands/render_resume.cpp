@@ -35,16 +35,20 @@ TEST_F(RenderResume, WhatTookAMomentBeginsAnew) {
     EXPECT_EQ(names("b"), output_names(2));
 }
 
-// From fewer samples the replicates are smaller than those of so many samples at once, and stay so.
-TEST_F(RenderResume, ReplicatesStayAsTheyAre) {
+// Of fewer samples the replicates are smaller than those of so many samples at once, which have less error: they are rendered anew,
+// and only what has replicates as large is gone on with. The bits are those of one render from any number to any other.
+TEST_F(RenderResume, FromAnyNumberToAnyOther) {
+    expect_done(rendering("a", {"--spp", "999"}));
+    EXPECT_EQ(run_json("a").at("samples").at("per_pixel"), 1024);
     expect_done(rendering("b", {"--spp", "16", "--checkpoint", "0.0001"}));
-    const auto size = run_json("b").at("samples").at("replicate_size");
-    EXPECT_EQ(size, 4);
-    expect_done({"render", "--resume", "b", "--spp", "256", "--quiet"});
-    EXPECT_EQ(run_json("b").at("samples").at("replicate_size"), size);
-    EXPECT_EQ(run_json("b").at("samples").at("per_pixel"), 256);
-    EXPECT_EQ(refused({"render", "--resume", "b", "--spp", "258"}),
-              "--spp 258: b samples 4 at once for each pixel, expected a multiple of that\n");
+    EXPECT_EQ(run_json("b").at("samples").at("replicate_size"), 4);
+    EXPECT_EQ(run({"render", "--resume", "b", "--spp", "300"}).err,
+              "The 16 samples a pixel of b are in replicates of 4, and 320 are better in replicates of 32: it begins anew\n"
+              "320 samples a pixel in place of 300: whole replicates of 32, which have less error than smaller ones\n");
+    EXPECT_EQ(run_json("b").at("samples").at("per_pixel"), 320);
+    EXPECT_EQ(refused({"render", "--resume", "b", "--spp", "288"}), "--spp 288: b has 320 samples a pixel already\n");
+    expect_done({"render", "--resume", "b", "--spp", "1000", "--quiet"});
+    expect_same("a", "b");
 }
 
 TEST_F(RenderResume, UntilAnErrorIsReached) {

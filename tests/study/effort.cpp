@@ -22,11 +22,14 @@ TEST(Effort, SamplesInWholeNets) {
         if (all[i] <= 8) continue;
         EXPECT_LE(static_cast<double>(all[i]), 1.125 * static_cast<double>(all[i - 1]));
         // As render makes its replicates: at least four, of as many points as in powers of two, or half or a quarter of these.
-        const std::uint64_t size = replicate_size(all[i]);
-        EXPECT_EQ(all[i] % size, 0u);
-        EXPECT_GE(all[i] / size, 4u);
+        ASSERT_TRUE(replicates_of_nets(all[i])) << all[i];
+        const std::uint64_t replicates = *replicates_of_nets(all[i]), size = all[i] / replicates;
+        EXPECT_EQ(size * replicates, all[i]);
+        EXPECT_TRUE(std::has_single_bit(size)) << all[i];
+        EXPECT_GE(replicates, 4u);
         EXPECT_GE(size, std::min(std::bit_floor(all[i]) / 8, std::uint64_t{largest_replicate})) << all[i];
     }
+    EXPECT_FALSE(replicates_of_nets(1000));
     EXPECT_EQ(whole_nets(0.2), 1u);
     EXPECT_EQ(whole_nets(0x1p30), std::uint64_t{1} << 30);
 }
