@@ -3,6 +3,7 @@
 #include "apps/command_line/commands.h"
 #include "apps/command_line/options.h"
 #include "apps/command_line/unknown_words.h"
+#include "apps/commands/interrupt.h"
 #include "apps/processes/launch.h"
 #include "core/base/did_you_mean.h"
 #include "core/base/error.h"
@@ -65,6 +66,7 @@ void keep_memory() {
 int main(int argc, char** argv) try {
     keep_memory();
     std::signal(SIGXFSZ, SIG_IGN);  // a file too large is an error of write() like a full disk
+    neumann::end_at_interrupts();
     neumann::Launch launch;
     // In these all processes take part from the beginning.
     const bool together = argc > 1 && (argv[1] == std::string("solve") || argv[1] == std::string("spectrum"));

@@ -115,7 +115,10 @@ std::optional<ConformResult> judge(const ConformScene& scene, const ConformReque
             if (!fs::exists(file)) throw InputError("there is no reference " + file.filename().string());
         const SampledReference reference{in_colors(to_xyz, read_exr(scene.reference.string()).mean),
                                          in_colors(to_xyz, read_exr(scene.variance.string()).mean), reference_samples};
-        const Scene loaded = read_scene(scene.file.string(), {{"integrator", scene.integrator}}, {.optional_definitions = true});
+        const Scene loaded = [&] {
+            const EndsAtInterrupts reading;
+            return read_scene(scene.file.string(), {{"integrator", scene.integrator}}, {.optional_definitions = true});
+        }();
         const auto pixels =
             static_cast<std::uint64_t>(loaded.film.crop_width) * static_cast<std::uint64_t>(loaded.film.crop_height);
         result.samples = std::max<std::uint64_t>(2, request.budget / pixels);

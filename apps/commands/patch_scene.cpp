@@ -39,6 +39,7 @@ TracedSettings settings(const PatchOptions& options) {
 
 std::shared_ptr<const Scene> read(const PatchOptions& options) {
     settings(options);  // before anything is read
+    const EndsAtInterrupts reading;
     return std::make_shared<const Scene>(
         read_scene(options.scene, parse_definitions(options.definitions), {.lenient = options.lenient}));
 }

@@ -291,11 +291,11 @@ int study_command(const StudyRequest& given) {
             (std::filesystem::path("out") / (std::filesystem::path(request.scene).stem().string() + "-study")).string();
     expect_sense(request);
     study_methods(request);  // before the scene is read
-    catch_interrupts();
     const ThreadLimit threads(threads_of_process(request.threads));
 
     const Stopwatch scene_watch;
     const Scene scene = read_scene(request.scene, request.definitions, {.lenient = request.lenient});
+    catch_interrupts();
     const auto crew = launched_crew(
         {std::filesystem::absolute(request.scene).string(), request.definitions, request.lenient, scene.hash}, request.threads);
     request.crew = crew.get();

@@ -17,6 +17,7 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <optional>
 
 namespace neumann {
 
@@ -78,13 +79,16 @@ void read_input(const UnbounceRequest& request, Input& input) {
     if (!request.picture.empty()) input.json["picture"] = request.picture;
 }
 
-void render_input(const UnbounceRequest& request, const Watch& watch, ProgressLine& line, Input& input) {
+Scene scene_of(const UnbounceRequest& request) {
     if (!request.picture.empty() || !request.regions.empty())
         throw InputError(fmt::format("--{} is for a folder of pictures, and {} is not a folder",
                                      request.picture.empty() ? "regions" : "picture", request.input));
+    return read_scene(request.input, parse_definitions(request.definitions), {.lenient = request.lenient});
+}
+
+void render_input(const UnbounceRequest& request, const Scene& scene, const Watch& watch, ProgressLine& line, Input& input) {
     const auto definitions = parse_definitions(request.definitions);
     const Blocks blocks = blocks_of(request.lights).value_or(default_blocks);
-    const Scene scene = read_scene(request.input, definitions, {.lenient = request.lenient});
     print_warnings(scene.replaced, request.quiet);
     const int width = request.width > 0 ? request.width : std::max(std::min(scene.film.width, default_width), blocks.first);
     const ProjectorLights projector(scene, width, blocks.first, blocks.second);
@@ -160,6 +164,8 @@ int unbounce_command(const UnbounceRequest& request) {
     if (!is_folder && !fs::exists(request.input, error))
         throw InputError(request.input + ": no such file or folder; expected a folder of pictures, or a scene");
     const ThreadLimit threads(request.threads);
+    std::optional<Scene> scene;
+    if (!is_folder) scene.emplace(scene_of(request));
     catch_interrupts();
     Watch watch;
     watch.stop = interrupted;
@@ -173,7 +179,7 @@ int unbounce_command(const UnbounceRequest& request) {
     Input input;
     if (is_folder) read_input(request, input);
     OutputFolder folder(output, "unbounce");
-    if (!is_folder) render_input(request, watch, line, input);
+    if (scene) render_input(request, *scene, watch, line, input);
     if (request.direct && !input.pictures.direct)
         throw InputError(fmt::format("--direct: {} has no pictures of direct light, direct_000.exr and so on", request.input));
 

@@ -1,5 +1,6 @@
 #include "apps/processes/helper.h"
 
+#include "apps/commands/interrupt.h"
 #include "apps/commands/limits.h"
 #include "apps/processes/launch.h"
 #include "apps/processes/render_message.h"
@@ -12,7 +13,6 @@
 #include <nlohmann/json.hpp>
 
 #include <chrono>
-#include <csignal>
 #include <cstring>
 #include <optional>
 #include <span>
@@ -149,8 +149,7 @@ private:
 
 int help(Processes& processes) {
     // Batch systems and terminals send these to all processes; the first one then ends the render, and this one.
-    std::signal(SIGINT, SIG_IGN);
-    std::signal(SIGTERM, SIG_IGN);
+    ignore_interrupts();
     Helper(processes).run();
     return 0;
 }

@@ -1,5 +1,7 @@
-// Ctrl-C and SIGTERM: a complete set of what was sampled so far, or nothing.
+// Ctrl-C, and what terminals and batch systems send: a complete set of what was sampled so far, or nothing.
 #include "tests/commands/render_output.h"
+
+#include <iterator>
 
 namespace neumann::render_interrupt_test {
 
@@ -15,6 +17,19 @@ protected:
         for (int i = 0; i < 6000 && !std::filesystem::exists(path("a")); ++i) std::this_thread::sleep_for(milliseconds(10));
         ASSERT_TRUE(std::filesystem::exists(path("a")));
     }
+    // Of two million triangles.
+    void write_large_mesh(const std::string& name) const {
+        constexpr int n = 1000;
+        std::string mesh;
+        for (int i = 0; i <= n; ++i)
+            for (int j = 0; j <= n; ++j) mesh += fmt::format("v {} {} {}\n", i, j, i * j % 7);
+        for (int i = 0; i < n; ++i)
+            for (int j = 0; j < n; ++j) {
+                const int k = i * (n + 1) + j + 1;
+                mesh += fmt::format("f {} {} {} {}\n", k, k + 1, k + n + 2, k + n + 1);
+            }
+        write(name, mesh);
+    }
     void expect_interrupted(const Finished& done) const {
         EXPECT_EQ(done.exit_code, 0) << done.err;
         EXPECT_NE(done.out.find("\nInterrupted: the pictures hold what was sampled so far.\n"), std::string::npos) << done.out;
@@ -29,7 +44,8 @@ protected:
 };
 
 TEST_F(RenderInterrupt, AfterAWhile) {
-    for (const int number : {SIGINT, SIGTERM}) {
+    for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGXCPU, SIGUSR1}) {
+        SCOPED_TRACE(number);
         RunningCommand command = start(long_render);
         wait_for_folder();
         std::this_thread::sleep_for(milliseconds(1500));
@@ -121,6 +137,50 @@ TEST_F(RenderInterrupt, WhileAMethodIsMadeReady) {
     }
 }
 
+// While the scene is read nothing is there that could be kept. Its mesh takes more memory than the program has before, and the
+// second or more.
+TEST_F(RenderInterrupt, WhileTheSceneIsRead) {
+    write_large_mesh("mesh.obj");
+    write("reading.xml",
+          "<scene version='3.0.0'><sensor type='perspective'/><shape type='obj'><string name='filename' value='mesh.obj'/>"
+          "</shape><emitter type='constant'/></scene>");
+    const std::vector<std::vector<std::string>> commands{{"render", "reading.xml", "-o", "a"},
+                                                         {"plan", "reading.xml"},
+                                                         {"study", "reading.xml", "-o", "a", "--budgets", "1"},
+                                                         {"solve", "reading.xml"},
+                                                         {"export", "reading.xml", "-o", "a"},
+                                                         {"unbounce", "reading.xml", "-o", "a"}};
+    constexpr int numbers[] = {SIGINT, SIGTERM, SIGHUP, SIGXCPU, SIGUSR1};
+    constexpr double of_program = 0x1p26;
+    for (std::size_t i = 0; i < commands.size(); ++i) {
+        SCOPED_TRACE(commands[i].front());
+        RunningCommand command = start(commands[i]);
+        for (int k = 0; k < 60'000 && command.resident_bytes() < of_program; ++k) std::this_thread::sleep_for(milliseconds(1));
+        const auto asked = std::chrono::steady_clock::now();
+        command.signal(numbers[i % std::size(numbers)]);
+        const Finished done = command.wait();
+        EXPECT_LT(std::chrono::steady_clock::now() - asked, milliseconds(2000));
+        EXPECT_EQ(done.exit_code, 1);
+        EXPECT_EQ(done.err, "neumann: interrupted\n");
+        EXPECT_EQ(done.out, "");
+        EXPECT_EQ(names(), (Names{"scene.xml", "reading.xml", "mesh.obj"}));
+    }
+}
+
+// What is started with nohup goes on when its terminal is gone.
+TEST_F(RenderInterrupt, NohupIsHeeded) {
+    std::vector<std::string> nohup{"/usr/bin/nohup", NEUMANN};
+    nohup.insert(nohup.end(), long_render.begin(), long_render.end());
+    RunningCommand command = start_program(nohup);
+    wait_for_folder();
+    std::this_thread::sleep_for(milliseconds(500));
+    command.signal(SIGHUP);
+    std::this_thread::sleep_for(milliseconds(500));
+    EXPECT_FALSE(std::filesystem::exists(path("a/run.json")));
+    command.signal(SIGUSR1);
+    expect_interrupted(command.wait());
+}
+
 // Before and while the program begins: the signal ends it as any program, or as above.
 TEST_F(RenderInterrupt, WithinTheFirstMoments) {
     for (const int number : {SIGINT, SIGTERM})
@@ -130,6 +190,9 @@ TEST_F(RenderInterrupt, WithinTheFirstMoments) {
             command.signal(number);
             const Finished done = command.wait();
             if (done.exit_code == 128 + number) {
+                EXPECT_EQ(names(), Names{"scene.xml"});
+            } else if (done.exit_code == 1) {
+                EXPECT_EQ(done.err, "neumann: interrupted\n");
                 EXPECT_EQ(names(), Names{"scene.xml"});
             } else {
                 expect_interrupted(done);

@@ -75,6 +75,13 @@ public:
     }
 
     void signal(int number) const { kill(process_, number); }
+    // What it has in memory now.
+    double resident_bytes() const {
+        std::ifstream file("/proc/" + std::to_string(process_) + "/statm");
+        double all = 0.0, resident = 0.0;
+        file >> all >> resident;
+        return resident * static_cast<double>(sysconf(_SC_PAGESIZE));
+    }
 
     Finished wait() {
         int status = 0;
