@@ -17,7 +17,8 @@ std::string warnings_of(double scale, double near_clip = 1e-2, double far_clip =
     parts.camera.near_clip = near_clip;
     parts.camera.far_clip = far_clip;
     std::string all;
-    for (const auto& [text, count] : make_scene(std::move(parts)).warnings.counts()) all += text + "\n";
+    const Scene scene = make_scene(std::move(parts));
+    for (const auto& [text, count] : scene.warnings.counts()) all += text + "\n";
     return all;
 }
 
