@@ -55,7 +55,7 @@ TEST_F(RenderGuided, RefusesLightsInGlass) {
 TEST_F(RenderGuided, MorePatchesThanMemoryHoldsAreRefused) {
     write("scene.xml", plates());
     const Finished done =
-        run({"render", "scene.xml", "-o", "refused", "--quiet", "--method", "guided", "--patches", "1000000000000"});
+        run({"render", "scene.xml", "-o", "refused", "--quiet", "--spp", "4", "--method", "guided", "--patches", "1000000000000"});
     EXPECT_EQ(done.exit_code, 2);
     EXPECT_NE(done.err.find("1000000000000 patches of 2048 rays need about "), std::string::npos) << done.err;
 }

@@ -50,10 +50,10 @@ TEST_F(RenderHelp, OptionsOfCompare) {
 }
 
 TEST_F(RenderHelp, OptionsOfSpectrum) {
-    EXPECT_EQ(
-        options(printed({"help", "spectrum"})),
-        (std::set<std::string>{"-h,--help", "--patches", "--directions", "--seed", "-t", "-D", "--lenient", "--quiet", "--json",
-                               "--eigenvalues", "--csv", "--time", "--most", "--memory", "--petsc", "--keep", "--checkpoint"}));
+    EXPECT_EQ(options(printed({"help", "spectrum"})),
+              (std::set<std::string>{"-h,--help", "--patches", "--directions", "--seed", "-t", "-D", "--lenient", "--quiet",
+                                     "--json", "--channel", "--eigenvalues", "--csv", "--time", "--most", "--memory", "--petsc",
+                                     "--keep", "--checkpoint"}));
 }
 
 TEST_F(RenderHelp, OptionsOfSolve) {

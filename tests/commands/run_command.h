@@ -76,7 +76,12 @@ public:
 
     void signal(int number) const { kill(process_, number); }
     // What it has in memory now.
+    // 0 before it has become the program.
     double resident_bytes() const {
+        std::error_code error;
+        const std::filesystem::path process("/proc/" + std::to_string(process_));
+        if (std::filesystem::read_symlink(process / "exe", error) == std::filesystem::read_symlink("/proc/self/exe", error))
+            return 0.0;
         std::ifstream file("/proc/" + std::to_string(process_) + "/statm");
         double all = 0.0, resident = 0.0;
         file >> all >> resident;

@@ -97,7 +97,7 @@ TEST_F(SolveCommand, TheTable) {
     EXPECT_EQ(done.err, "");
     EXPECT_NE(done.out.find("\nChannel grey: the scene is grey. Spectral radius 0.500000, found with "), std::string::npos)
         << done.out;
-    EXPECT_NE(done.out.find("\nNeumann series                              19 "), std::string::npos) << done.out;
+    EXPECT_NE(done.out.find("\nNeumann series                              20 "), std::string::npos) << done.out;
     EXPECT_NE(done.out.find("     reference   converged\n"), std::string::npos) << done.out;
     const Finished few = run({"solve", furnace, "--patches", "60", "--most", "10"});
     EXPECT_NE(few.out.find("\nNeumann series"), std::string::npos);

@@ -148,12 +148,12 @@ TEST_F(StudyCommand, NoDifferenceIsSeenWhereThereIsNone) {
     EXPECT_GT(other.at("high"), 1.0);
 }
 
-// Three samples or five are samples like any other.
+// Three samples or five are samples like any other; 100 are whole replicates of 16.
 TEST_F(StudyCommand, SamplesAreAnyNumbers) {
     study("a", {"--methods", "walk", "--samples", "3,5,100", "--repeats", "2", "-n", "1", "--reference-spp", "300"});
     const nlohmann::json points = method(study_json("a"), "1", "walk").at("points");
     ASSERT_EQ(points.size(), 3u);
-    for (std::size_t b = 0; b < 3; ++b) EXPECT_EQ(points[b].at("samples"), (std::array{3, 5, 100})[b]);
+    for (std::size_t b = 0; b < 3; ++b) EXPECT_EQ(points[b].at("samples"), (std::array{3, 5, 112})[b]);
     EXPECT_EQ(study_json("a").at("reference").at("identity").at("samples"), 300);
 }
 
@@ -278,10 +278,11 @@ TEST_F(StudyCommand, Refused) {
         EXPECT_FALSE(std::filesystem::exists(path("new")));
         return said;
     };
-    EXPECT_EQ(refusal({"--methods", "walk,wlak"}),
-              "--methods wlak: --method: wlak not in "
-              "{auto,walk,guided,corrected,surface,light,bidirectional,mixed,photon,cache,metropolis,classic,pointwise,matrix,gather,"
-              "patches}; did you mean 'walk'?\n");
+    EXPECT_EQ(
+        refusal({"--methods", "walk,wlak"}),
+        "--methods wlak: --method: wlak not in "
+        "{auto,walk,guided,corrected,surface,light,bidirectional,mixed,photon,cache,metropolis,classic,pointwise,matrix,gather,"
+        "patches}; did you mean 'walk'?\n");
     EXPECT_EQ(refusal({"--methods", "walk,auto"}),
               "--methods auto: a study compares methods, and auto is one of the others; name those that it is to compare\n");
     EXPECT_EQ(refusal({"--methods", "walk,walk"}), "--methods: 'walk' is given twice\n");

@@ -26,7 +26,7 @@ struct Effort {
 };
 constexpr std::array<Effort, 3> efforts{{{4096, 8, 8, 100}, {131072, 32, 32, 300}, {524288, 64, 64, 600}}};
 constexpr std::uint64_t samples_of_field = 256;  // of all pixels, in a replicate
-constexpr std::uint32_t patches = 150, directions_of_field = 16;
+constexpr std::uint32_t patches = 60, directions_of_field = 16;
 constexpr int directions_of_walks = 256;
 
 Goal goal(const Method& method, const Film& film, const Look& look) {
