@@ -34,7 +34,7 @@ TEST_F(NamesOfBytes, OtherCommands) {
     expect_json({"plan", scene});
     expect_json({"spectrum", scene, "--patches", "40", "--directions", "4"});
     expect_json({"solve", scene, "--patches", "40", "--directions", "4"});
-    expect_json({"export", scene, out, "--patches", "40", "--directions", "4"});
+    expect_json({"export", scene, "-o", out, "--patches", "40", "--directions", "4"});
     expect_json({"study", scene, "-o", "studie\xfc", "--methods", "walk", "--samples", "4", "--repeats", "2", "-n", "1",
                  "--reference", "walk", "--reference-spp", "16"});
 }
