@@ -17,10 +17,15 @@ namespace neumann::physics::choice_test {
 
 Scene of_file(const std::string& name) { return read_scene(SCENES "/" + name + "/" + name + ".xml", {{"res", "64"}}); }
 
+MethodChoice choose(const method::Auto& open, const Scene& scene, const Goal& goal) {
+    return choose_method(open, scene, goal, PilotOnDemand(scene, {}, goal.seed), {});
+}
+// With a number of samples rays are counted, and not seconds.
 MethodChoice choice(const Scene& scene, std::uint64_t seed = fixed_seed) {
     Goal goal;
     goal.seed = seed;
-    return choose_method({}, scene, goal, PilotOnDemand(scene, {}, seed), {});
+    goal.samples = 4096;
+    return choose({}, scene, goal);
 }
 std::string chosen(const Scene& scene) { return name_of(choice(scene).method); }
 
@@ -59,7 +64,7 @@ TEST(Choice, TheSamplerIsHandedOn) {
     open.sampler = SamplerKind::independent;
     Goal goal;
     goal.bounces = 0;
-    const MethodChoice found = choose_method(open, of_file("furnace"), goal, {});
+    const MethodChoice found = choose(open, of_file("furnace"), goal);
     EXPECT_EQ(std::get<method::Walk>(found.method).sampler, SamplerKind::independent);
 }
 
@@ -75,7 +80,7 @@ TEST(Choice, WithoutANameAnOptionOfTheWalkMeansTheWalk) {
 TEST(Choice, EmittedLightAloneTakesNoPilot) {
     Goal goal;
     goal.bounces = 0;
-    EXPECT_TRUE(choose_method({}, of_file("cornell-box"), goal, {}).trials.empty());
+    EXPECT_TRUE(choose({}, of_file("cornell-box"), goal).trials.empty());
 }
 
 // The light of a point by way of a mirror is found by walks from the point alone.
@@ -104,9 +109,9 @@ TEST(Choice, WhatIsMadeLeastIsHandedOn) {
     open.adaptive = LeastError::of_bounces;
     Goal goal;
     goal.samples = 4;  // no pilot
-    EXPECT_EQ(adaptive_of(choose_method(open, of_file("cornell-box"), goal, {}).method), LeastError::of_bounces);
+    EXPECT_EQ(adaptive_of(choose(open, of_file("cornell-box"), goal).method), LeastError::of_bounces);
     goal.samples = 1024;
-    EXPECT_EQ(adaptive_of(choose_method(open, of_file("cornell-box"), goal, {}).method), LeastError::of_bounces);
+    EXPECT_EQ(adaptive_of(choose(open, of_file("cornell-box"), goal).method), LeastError::of_bounces);
 }
 
 // In a room of metal a path brings much or nothing, and fields are many times as exact for the same work.
@@ -133,7 +138,7 @@ TEST(Choice, NoBiasIsTakenWhereSamplesDoNotLessenIt) {
     Goal goal;
     goal.seed = fixed_seed;
     goal.samples = 1u << 20;
-    const MethodChoice found = choose_method(open, of_file("cornell-box"), goal, {});
+    const MethodChoice found = choose(open, of_file("cornell-box"), goal);
     EXPECT_FALSE(is_biased(found.method)) << name_of(found.method) << ": " << found.why;
     EXPECT_EQ(found.trials.size(), 5u);
 }
@@ -144,7 +149,7 @@ TEST(Choice, GuidedWalksHaveAPilotWhereTheyMayBeTakenAndItCostsLittle) {
         Goal goal;
         goal.seed = fixed_seed;
         goal.samples = samples;
-        return std::ranges::any_of(choose_method({}, of_file(scene), goal, {}).trials,
+        return std::ranges::any_of(choose({}, of_file(scene), goal).trials,
                                    [](const MethodTrial& trial) { return trial.method == "guided"; });
     };
     EXPECT_FALSE(has_pilot("cornell-box", 1u << 14)) << "corrected takes a fiftieth of the walk's work";
