@@ -34,7 +34,7 @@ TEST_F(BadInputScene, Files) {
     EXPECT_EQ(refusal("."), ".: is a folder, expected a scene file\n");
     EXPECT_EQ(refusal_of("<shape type=\"cube\">"), "scene.xml:3:69: broken XML: Start-end tags mismatch\n");
     write("empty.xml", "");
-    EXPECT_EQ(refusal("empty.xml"), "empty.xml:1:1: broken XML: No document element found\n");
+    EXPECT_EQ(refusal("empty.xml"), "empty.xml: is empty, expected a scene file\n");
 }
 
 TEST_F(BadInputScene, Plugins) {

@@ -244,8 +244,8 @@ TEST_F(CompareCommand, WhatCannotBeComparedIsRefused) {
     put("full/bounce_000.exr", constant(2, 1.0, 0.1));
     put("other/bounce_001.exr", constant(2, 1.0, 0.1));
     const std::string other = (base_ / "other").string();
-    EXPECT_EQ(refusal(a, none), none + ": there is no such file");
-    EXPECT_EQ(refusal(none, folder), none + ": there is no such file");
+    EXPECT_EQ(refusal(a, none), none + ": cannot be read: No such file or directory");
+    EXPECT_EQ(refusal(none, folder), none + ": cannot be read: No such file or directory");
     EXPECT_EQ(refusal(a, folder), folder + " and " + a + ": a folder against a picture");
     EXPECT_EQ(refusal(a, small), a + " and " + small + ": 4×4 pixels against 2×2");
     EXPECT_EQ(refusal(folder, full), folder + ": no bounce_*.exr, sum_*.exr or rest.exr");

@@ -140,8 +140,10 @@ TEST_F(ImageExr, AFolderIsRefused) {
 }
 
 TEST_F(ImageExr, WhatIsNotAPictureIsRefused) {
-    // OpenImageIO asks a reader of its own of the third, which throws, and of the fourth, which aborts.
-    for (const std::string& path : {put("a.exr", "no picture at all"), put("b.exr", ""), put("c.gif", "GIF89a\x05\xfcyfil\x03"),
+    const std::string nothing = put("b.exr", "");
+    EXPECT_EQ(refusal(nothing), nothing + ": is empty, expected a picture");
+    // OpenImageIO asks a reader of its own of the second, which throws, and of the third, which aborts.
+    for (const std::string& path : {put("a.exr", "no picture at all"), put("c.gif", "GIF89a\x05\xfcyfil\x03"),
                                     put("d", std::string(1000, '\0'))}) {
         EXPECT_EQ(refusal(path),
                   path + ": not a picture that can be read, expected OpenEXR, PNG, JPEG, TIFF, Radiance HDR, PNM, PFM, BMP or TGA");

@@ -34,7 +34,7 @@ class Matrices(Case):
 
     def test_misspelt_keywords(self):
         for name in ("matrices", "operators", "spectrum", "solve"):
-            with self.assertRaisesRegex(TypeError, rf"^{name}\(\) got an unexpected keyword argument 'pathces'$"):
+            with self.assertRaisesRegex(TypeError, rf"^{name}\(\) got an unexpected keyword argument 'pathces'; did you mean 'patches'\?$"):
                 getattr(furnace(), name)(pathces=50)
 
     def test_keywords_name_the_nearest(self):
