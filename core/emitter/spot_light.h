@@ -1,5 +1,5 @@
 // A point light with a cone (Mitsuba's `spot`) around +z of its own space: full intensity up to the angle of the beam, then falling
-// linearly to 0 at the cutoff. An optional picture fills the square around the cone.
+// to 0 at the cutoff. An optional picture fills the square around the cone.
 #pragma once
 
 #include "core/emitter/beam.h"
@@ -11,8 +11,14 @@ namespace neumann {
 
 class SpotLight {
 public:
+    enum class Edge {
+        linear,  // in the angle, as Mitsuba's
+        smooth   // 3 x² − 2 x³, x linear in the cosine, as pbrt's
+    };
+
     // Angles from the axis, radians, 0 ≤ beam_width ≤ cutoff; below π/2 with a slide.
-    SpotLight(const Mat4& to_world, const Rgb& intensity, double cutoff, double beam_width, std::optional<Slide> slide = {});
+    SpotLight(const Mat4& to_world, const Rgb& intensity, double cutoff, double beam_width, std::optional<Slide> slide = {},
+              Edge edge = Edge::linear);
 
     Beam beam(const Vec3& at, const Surroundings&) const;
     // The total power divided by π.
@@ -24,11 +30,14 @@ public:
     double direction_pdf(const Vec3& w) const;
 
 private:
+    double falloff(double angle) const;
+
     glm::dmat3 to_local_;
     Vec3 position_;
     Rgb intensity_;
     double cutoff_, beam_width_;
     std::optional<Slide> slide_;
+    Edge edge_;
 };
 
 }  // namespace neumann

@@ -27,8 +27,11 @@ public:
         specular_share_ = s + d > 0.0 ? s / (s + d) : 1.0;
     }
 
-    Rgb operator()(const ShadingPoint& p) const { return of(diffuse_(p)); }
-    Rgb upper_bound() const { return of(diffuse_.upper_bound()); }
+    Rgb operator()(const ShadingPoint& p) const { return of(diffuse_(p), internal_); }
+    Rgb upper_bound() const { return upper_bound(internal_); }
+    // With another F̄.
+    Rgb operator()(const ShadingPoint& p, double internal) const { return of(diffuse_(p), internal); }
+    Rgb upper_bound(double internal) const { return of(diffuse_.upper_bound(), internal); }
     // The probability of sampling the boundary if it reflects F.
     double specular_probability(double F) const {
         const double s = F * specular_share_, d = (1.0 - F) * (1.0 - specular_share_);
@@ -38,7 +41,7 @@ public:
     bool is_grey() const { return diffuse_.is_grey(); }
 
 private:
-    Rgb of(const Rgb& rho) const { return rho * inv_eta2_ / (1.0 - internal_ * (nonlinear_ ? rho : Rgb(1.0))); }
+    Rgb of(const Rgb& rho, double internal) const { return rho * inv_eta2_ / (1.0 - internal * (nonlinear_ ? rho : Rgb(1.0))); }
 
     double inv_eta2_, internal_, specular_share_;
     bool nonlinear_;

@@ -16,7 +16,8 @@
 
 namespace neumann {
 
-// Where a shape and its material come from, for messages: "shape 'cube'" and "bsdf 'diffuse'".
+// Where a shape and its material come from, for messages: "shape 'lamp'" by its id, or "shape 'cube'" by its type, and likewise
+// "bsdf 'white'" or "bsdf 'diffuse'".
 struct Origin {
     Location place;
     std::string shape, bsdf;

@@ -18,6 +18,11 @@ std::vector<Named> smooth() {
             all.push_back({"eta " + std::to_string(eta) + (nonlinear ? ", nonlinear" : ""), Plastic(eta, paint, tint, nonlinear)});
     return all;
 }
+// Of a roughness that varies, up to 0.5, where it is this.
+RoughPlastic<Ggx> varying(double alpha) {
+    const SurfaceFunction here([alpha](const ShadingPoint&) { return Rgb(alpha); }, Rgb(0.5), true);
+    return {Roughness<Ggx>(here, here), 1.49, paint, tint, true};
+}
 std::vector<Named> rough() {
     std::vector<Named> all;
     for (const double alpha : {0.1, 0.5}) {
@@ -25,6 +30,7 @@ std::vector<Named> rough() {
         all.push_back({"GGX" + text, RoughPlastic(Ggx(alpha), 1.49, paint, tint, false)});
         all.push_back({"Beckmann" + text, RoughPlastic(Beckmann(alpha), 1.49, paint, tint, true)});
     }
+    all.push_back({"GGX, alpha varies", varying(0.23)});
     return all;
 }
 const std::vector<Named>& plastics() {
@@ -187,6 +193,21 @@ TEST(RoughPlastic, WithHardlyAnyRoughnessIsSmooth) {
     EXPECT_NEAR(T.internal_reflectance(), sum, 1e-3);
     EXPECT_NEAR(T(10.5 / 63.0), 0.5 * (T(10.0 / 63.0) + T(11.0 / 63.0)), 1e-15);
     EXPECT_NEAR(T.mean(), mean_over_cosines([&](double mu) { return T(mu); }), 1e-5);
+}
+
+// Wherever the roughness is this, it is the same as if it were this everywhere, but for what a table of some is off between them.
+TEST(RoughPlastic, ItsRoughnessMayVary) {
+    for (const double alpha : {0.02, 0.11, 0.23, 0.37, 0.5}) {
+        const RoughPlastic<Ggx> here = varying(alpha), everywhere(Ggx(alpha), 1.49, paint, tint, true);
+        for (const double o : {0.1, 0.5, 0.95})
+            for (const double i : {0.1, 0.5, 0.95}) {
+                const Vec3 wo = at_cosine(o), wi = at_cosine(i);
+                const Rgb found = here.eval({}, wo, wi), wanted = everywhere.eval({}, wo, wi);
+                for (int c = 0; c < 3; ++c) EXPECT_NEAR(found[c], wanted[c], 2e-3 * wanted[c]) << alpha << ", " << o << ", " << i;
+                EXPECT_NEAR(here.pdf({}, wo, wi), everywhere.pdf({}, wo, wi), 2e-3 * everywhere.pdf({}, wo, wi));
+            }
+    }
+    EXPECT_FALSE(varying(0.2).is_constant());
 }
 
 }  // namespace neumann::physics::plastics_test

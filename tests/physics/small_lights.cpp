@@ -64,6 +64,19 @@ TEST(SmallLights, ASpotFallsOffLinearlyInTheAngle) {
     EXPECT_EQ(hard.beam({3, 0, 0.01}, nowhere).irradiance.r, 0.0);
 }
 
+// As pbrt's: 3 x² − 2 x³, x linear in the cosine. On average over the cosines that is a half.
+TEST(SmallLights, ASpotMayFallOffSmoothly) {
+    const double from = std::cos(glm::radians(30.0)), to = std::cos(glm::radians(50.0));
+    const SpotLight spot(facing({0, 0, 2}, {0, 0, -1}, {0, 1, 0}), grey(5.0), glm::radians(50.0), glm::radians(30.0), {},
+                         SpotLight::Edge::smooth);
+    for (const double degrees : {0.0, 29.9, 35.0, 45.0, 49.0, 50.1}) {
+        const double theta = glm::radians(degrees), cosine = std::cos(theta), x = std::clamp((cosine - to) / (from - to), 0.0, 1.0);
+        expect_reflected({spot}, Vec3(2.0 * std::tan(theta), 0, 0),
+                         x * x * (3.0 - 2.0 * x) * rho * 5.0 * cosine / pi * cosine * cosine / 4.0, std::to_string(degrees) + "°");
+    }
+    EXPECT_NEAR(spot.brightness(nowhere), 2.0 * 5.0 * (1.0 - 0.5 * (from + to)), 1e-12);
+}
+
 Slide four_pixels(Bitmap::Filter filter) {
     const auto texels = std::make_shared<const Texels>(Texels{2, 2, 1, {}, {1, 2, 3, 4}});
     const Bitmap bitmap(texels, filter, Bitmap::Wrap::repeat, false);

@@ -101,7 +101,9 @@ TEST_F(PbrtLights, PointLights) {
     expect_same(
         "LightSource \"distant\" \"float illuminance\" 7",
         "<emitter type='directional'><vector name='direction' x='0' y='0' z='1'/>" + rgb("irradiance", 7, 7, 7) + "</emitter>");
-    const std::string cone = "<float name='cutoff_angle' value='40'/><float name='beam_width' value='30'/>";
+    const std::string cone =
+        "<float name='cutoff_angle' value='40'/><float name='beam_width' value='30'/>"
+        "<string name='falloff' value='smooth'/>";
     expect_same(
         "Scale 2 2 2 LightSource \"spot\" \"point3 from\" [0 0 1] \"point3 to\" [0 0 3] \"float coneangle\" 40 \"float "
         "conedeltaangle\" 10",
@@ -110,9 +112,16 @@ TEST_F(PbrtLights, PointLights) {
     const double power = 5.0 / (2.0 * pi * (1.0 - 0.5 * (std::cos(glm::radians(30.0)) + std::cos(glm::radians(40.0)))));
     expect_same("LightSource \"spot\" \"float power\" 5 \"float coneangle\" 40 \"float conedeltaangle\" 10",
                 "<emitter type='spot'>" + rgb("intensity", power, power, power) + cone + "</emitter>");
-    EXPECT_EQ(warning(read_pbrt("LightSource \"spot\"")),
-              "spot light: towards the edge of its cone it falls off linearly with the angle, where pbrt has a smooth step");
-    EXPECT_EQ(warning(read_pbrt("LightSource \"spot\" \"float conedeltaangle\" 0")), "");
+    EXPECT_EQ(warning(read_pbrt("LightSource \"spot\"")), "");
+    // I s(cos θ) / d² at the distance d, s pbrt's SmoothStep from the edge of the cone to where it begins to fall off.
+    const SceneParts spot = read_pbrt("LightSource \"spot\" \"float coneangle\" 40 \"float conedeltaangle\" 30");
+    const double edge = std::cos(glm::radians(40.0)), begin = std::cos(glm::radians(10.0));
+    for (const double degrees : {5.0, 15.0, 25.0, 35.0, 39.0, 41.0}) {
+        const double cosine = std::cos(glm::radians(degrees)), x = std::clamp((cosine - edge) / (begin - edge), 0.0, 1.0);
+        const Vec3 at = 2.0 * Vec3(std::sin(glm::radians(degrees)), 0.0, cosine);
+        const auto beam = std::visit([&](const auto& light) { return light.beam(at, {}); }, spot.lights.delta.at(0));
+        EXPECT_NEAR(beam.irradiance.g, x * x * (3.0 - 2.0 * x) / 4.0, 1e-14) << degrees;
+    }
     EXPECT_EQ(pbrt_error("LightSource \"spot\" \"float conedeltaangle\" 31"),
               "scene.pbrt:3:20: conedeltaangle of light 'spot' is 31, expected from 0 to coneangle, 30 degrees");
     EXPECT_EQ(pbrt_error("LightSource \"distant\" \"point3 to\" [0 0 0]"),

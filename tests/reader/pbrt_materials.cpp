@@ -125,6 +125,22 @@ TEST_F(PbrtMaterials, Layers) {
                          two_sided("plastic", coat + "<rgb name='diffuse_reflectance' value='0.6, 0.3, 0.1'/>"));
     expect_same_material("Material \"coateddiffuse\" \"float roughness\" 0.01",
                          two_sided("roughplastic", coat + number("diffuse_reflectance", 0.5) + ggx(0.1)));
+    // The roughness may vary. A square of a checkerboard of pbrt is one of two of Mitsuba's, and Mitsuba swaps those of numbers.
+    const SceneParts varies = read_pbrt(
+        "Texture \"r\" \"float\" \"checkerboard\" \"float tex1\" 0.01 \"float tex2\" 0.16\n"
+        "Material \"coateddiffuse\" \"texture roughness\" \"r\"\nShape \"sphere\"");
+    const auto rough = [&](const char* roughness) {
+        return read_pbrt(std::string("Material \"coateddiffuse\" \"float roughness\" ") + roughness + "\nShape \"sphere\"");
+    };
+    const auto front = [](const SceneParts& parts) -> const Bsdf& {
+        return parts.bsdfs.at(static_cast<std::size_t>(parts.sides_of_shape.at(0).front));
+    };
+    const SceneParts first = rough("0.01"), second = rough("0.16");
+    for (const auto& [uv, like] : {std::pair(Vec2(0.5, 0.5), &first), {Vec2(1.5, 0.5), &second}}) {
+        const Vec3 wo(0.0, 0.6, 0.8), wi(0.1, -0.6, std::sqrt(1.0 - 0.37));
+        const double wanted = eval(front(*like), {}, wo, wi).g;
+        EXPECT_NEAR(eval(front(varies), point_with_coordinates(uv), wo, wi).g, wanted, 1e-9 * wanted) << uv.x;
+    }
     EXPECT_EQ(pbrt_error("Material \"coateddiffuse\" \"float uroughness\" 0.1 \"float vroughness\" 0.2"),
               "scene.pbrt:3:49: vroughness of material 'coateddiffuse' is not uroughness, which is not supported: its coat is "
               "alike in all "

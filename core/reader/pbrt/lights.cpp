@@ -94,9 +94,6 @@ Element make_spot(Entity& e, Importer& importer) {
         intensity *= power / (2.0 * pi * (1.0 - 0.5 * (from_cosine + to_cosine)));
     const auto [from, to] = read_from_to(p);
     finish(p);
-    if (delta > 0.0)
-        importer.warnings.add(
-            "spot light: towards the edge of its cone it falls off linearly with the angle, where pbrt has a smooth step");
     Element light = make_object("emitter", "spot", e.place());
     const Frame frame(glm::normalize(to - from));
     const Mat4 own(glm::dvec4(frame.s, 0.0), glm::dvec4(frame.t, 0.0), glm::dvec4(frame.n, 0.0), glm::dvec4(from, 1.0));
@@ -104,6 +101,7 @@ Element make_spot(Entity& e, Importer& importer) {
     add_rgb(light, "intensity", intensity, e.place());
     add_float(light, "cutoff_angle", cone, p.place("coneangle"));
     add_float(light, "beam_width", cone - delta, p.place("conedeltaangle"));
+    if (delta > 0.0) add_string(light, "falloff", "smooth", e.place());
     return light;
 }
 

@@ -34,12 +34,12 @@ Bsdf read_plastic(const Element& e, const Context& context) {
 Bsdf read_rough_plastic(const Element& e, const Context& context) {
     Properties p(e, context.objects);
     const Coating c = read_coating(p, context);
-    const RoughnessParameters roughness = read_constant_roughness(p, context);
+    const RoughnessParameters roughness = read_isotropic_roughness(p, context);
     p.finish();
     if (c.eta == 1.0) p.fail("int_ior", fmt::format("int_ior and ext_ior of {} are the same, expected different ones", p.title()));
-    const double alpha = roughness.alpha_u.upper_bound().r;
-    if (roughness.ggx) return RoughPlastic(Ggx(alpha), c.eta, c.diffuse, c.specular, c.nonlinear);
-    return RoughPlastic(Beckmann(alpha), c.eta, c.diffuse, c.specular, c.nonlinear);
+    const SurfaceFunction& alpha = roughness.alpha_u;
+    if (roughness.ggx) return RoughPlastic<Ggx>(Roughness<Ggx>(alpha, alpha), c.eta, c.diffuse, c.specular, c.nonlinear);
+    return RoughPlastic<Beckmann>(Roughness<Beckmann>(alpha, alpha), c.eta, c.diffuse, c.specular, c.nonlinear);
 }
 
 }  // namespace neumann::reader

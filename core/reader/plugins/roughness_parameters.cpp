@@ -41,10 +41,10 @@ RoughnessParameters read_roughness(Properties& p, const Context& context) {
     return {ggx, both, both, true};
 }
 
-RoughnessParameters read_constant_roughness(Properties& p, const Context& context) {
+RoughnessParameters read_isotropic_roughness(Properties& p, const Context& context) {
     RoughnessParameters found = read_roughness(p, context);
     const double u = found.alpha_u.upper_bound().r, v = found.alpha_v.upper_bound().r;
-    if (!(found.alpha_u.is_constant() && found.alpha_v.is_constant()))
+    if (!found.is_isotropic && !(found.alpha_u.is_constant() && found.alpha_v.is_constant()))
         p.complain("alpha_u",
                    fmt::format("alpha_u and alpha_v of {} vary, expected alpha: it is alike in all directions", p.title()),
                    {"alpha_v"});

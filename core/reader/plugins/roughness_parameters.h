@@ -16,6 +16,6 @@ struct RoughnessParameters {
 // A constant α below 10⁻⁴ is a problem, which Mitsuba would replace by 10⁻⁴.
 RoughnessParameters read_roughness(Properties& p, const Context& context);
 // One α for all directions.
-RoughnessParameters read_constant_roughness(Properties& p, const Context& context);
+RoughnessParameters read_isotropic_roughness(Properties& p, const Context& context);
 
 }  // namespace neumann::reader

@@ -82,9 +82,11 @@ SpotLight read_spot(Properties& p, const Context& context) {
         p.complain("beam_width",
                    fmt::format("beam_width is {}, expected at least 0 and at most cutoff_angle, {} degrees", beam_width, cutoff),
                    {"cutoff_angle"});
+    const bool is_smooth = p.choice("falloff", {"linear", "smooth"}, "linear") == "smooth";
     const Mat4 to_world = p.transform("to_world");
     finish(p);
-    return SpotLight(to_world, intensity, glm::radians(cutoff), glm::radians(beam_width), std::move(slide));
+    return SpotLight(to_world, intensity, glm::radians(cutoff), glm::radians(beam_width), std::move(slide),
+                     is_smooth ? SpotLight::Edge::smooth : SpotLight::Edge::linear);
 }
 
 ProjectorLight read_projector(Properties& p, const Context& context) {

@@ -1,4 +1,8 @@
-#include "core/material/rough_plastic.h"
+#include "core/material/rough_transmittance.h"
+
+#include "core/material/beckmann.h"
+#include "core/material/fresnel.h"
+#include "core/material/ggx.h"
 
 #include <boost/math/quadrature/gauss.hpp>
 
