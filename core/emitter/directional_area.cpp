@@ -77,10 +77,9 @@ Rgb DirectionalArea::exitance(const Vec3& at) const {
 }
 
 Beam DirectionalArea::beam(const Vec3& at, const Surroundings&) const {
-    const double h = height(at);
-    if (!(h > 0.0)) return {at - normal_};
+    if (!is_in_front(at)) return {at - normal_};
     // The ray that looks for the light ends off the surface by its rounding error.
-    return {at - normal_ * std::max(h - error_, 0.5 * h), exitance(at)};
+    return {at - normal_ * (height(at) - error_), exitance(at)};
 }
 
 Vec3 DirectionalArea::start(const Vec2& u) const {

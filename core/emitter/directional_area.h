@@ -35,9 +35,11 @@ public:
     // Of the shape at the foot of the perpendicular from a point.
     Rgb exitance(const Vec3& at) const;
     // Whether the beam reaches a point, were nothing in its way.
-    bool lights(const Vec3& at) const { return height(at) > 0.0 && foot(at); }
+    bool lights(const Vec3& at) const { return is_in_front(at) && foot(at); }
 
 private:
+    // Not so near that rounding decides: points of the shape itself are as far from its plane as their errors and the plane's.
+    bool is_in_front(const Vec3& p) const { return height(p) > 2.0 * error_; }
     double height(const Vec3& p) const { return glm::dot(p - corner_, normal_); }
     // The point of the shape's surface below p, if there is one.
     std::optional<SurfacePoint> foot(const Vec3& p) const;

@@ -34,6 +34,20 @@ BsdfSample Blend::sample(const ShadingPoint& p, const Vec3& wo, Vec2 u) const {
     return {sampled.wi, (sampled.weight * from_chosen + by_other) / density, density};
 }
 
+double Blend::pdf_from_light(const ShadingPoint& p, const Vec3& wi, const Vec3& wo) const {
+    const double weight = weight_(p).r;
+    return (first_ ? (1.0 - weight) * neumann::pdf_from_light(*first_, p, wi, wo) : 0.0) +
+           (second_ ? weight * neumann::pdf_from_light(*second_, p, wi, wo) : 0.0);
+}
+
+BsdfSample Blend::sample_from_light(const ShadingPoint& p, const Vec3& wi, Vec2 u) const {
+    const Bsdf* const chosen = (choose_first(1.0 - weight_(p).r, u.x) ? first_ : second_).get();
+    if (!chosen) return {};
+    BsdfSample sampled = neumann::sample_from_light(*chosen, p, wi, u);
+    if (sampled.pdf != 0.0 && sampled.pdf != delta_pdf) sampled.pdf = pdf_from_light(p, wi, sampled.wi);
+    return sampled;
+}
+
 Rgb Blend::reflectance(const ShadingPoint& p) const {
     if (lobe().kind != Lobe::Kind::diffuse) return Rgb(1.0);
     const Rgb weight = weight_(p);

@@ -21,6 +21,8 @@ public:
     double pdf(const ShadingPoint& p, const Vec3& wo, const Vec3& wi) const;
     // Chooses one material with the weight as probability; the pdf is that of the mixture.
     BsdfSample sample(const ShadingPoint& p, const Vec3& wo, Vec2 u) const;
+    double pdf_from_light(const ShadingPoint& p, const Vec3& wi, const Vec3& wo) const;
+    BsdfSample sample_from_light(const ShadingPoint& p, const Vec3& wi, Vec2 u) const;
     // Only a blend of diffuse materials has the form ρ(p) g.
     Rgb reflectance(const ShadingPoint& p) const;
     Bsdf white() const;

@@ -55,6 +55,24 @@ inline double pdf(const Bsdf& bsdf, const ShadingPoint& p, const Vec3& wo, const
 inline BsdfSample sample(const Bsdf& bsdf, const ShadingPoint& p, const Vec3& wo, const Vec2& u) {
     return visit_fast(bsdf, [&](const auto& b) { return b.sample(p, wo, u); });
 }
+// For paths from lights, whose ωi is given: sample() and pdf() with the directions exchanged, where that finds all ωo that light goes
+// to. The weights of delta lobes alone count: fs(ωi → ωo) |cosθo| / pdf by R's fs, with cosines about the normal that mirrors.
+inline BsdfSample sample_from_light(const Bsdf& bsdf, const ShadingPoint& p, const Vec3& wi, const Vec2& u) {
+    return visit_fast(bsdf, [&](const auto& b) {
+        if constexpr (requires { b.sample_from_light(p, wi, u); })
+            return b.sample_from_light(p, wi, u);
+        else
+            return b.sample(p, wi, u);
+    });
+}
+inline double pdf_from_light(const Bsdf& bsdf, const ShadingPoint& p, const Vec3& wi, const Vec3& wo) {
+    return visit_fast(bsdf, [&](const auto& b) {
+        if constexpr (requires { b.pdf_from_light(p, wi, wo); })
+            return b.pdf_from_light(p, wi, wo);
+        else
+            return b.pdf(p, wi, wo);
+    });
+}
 // An upper bound on ∫ fs |cosθ| dω over all points and directions, for each channel.
 inline Rgb largest_albedo(const Bsdf& bsdf) {
     return std::visit([](const auto& b) { return b.largest_albedo(); }, bsdf);

@@ -21,6 +21,8 @@ Coating::Inside Coating::inside(const Vec3& w) const {
     return {Vec3(w.x, w.y, std::sqrt(square)) / eta_, 1.0 - fresnel(w.z)};
 }
 
+double Coating::compression(const Vec3& w, const Inside& inside) const { return w.z / (eta_ * eta_ * inside.w.z); }
+
 double Coating::specular_probability(double transmitted) const {
     const double s = (1.0 - transmitted) * specular_share_, d = transmitted * (1.0 - specular_share_);
     return s + d > 0.0 ? s / (s + d) : 1.0;
@@ -41,19 +43,18 @@ double Coating::pdf(const ShadingPoint& p, const Vec3& wo, const Vec3& wi) const
     if (!nested_ || wo.z <= 0.0 || wi.z <= 0.0) return 0.0;
     const Inside o = inside(wo), i = inside(wi);
     if (o.transmitted <= 0.0 || i.transmitted <= 0.0) return 0.0;
-    // dω'/dω, as cosθ dω = η² cosθ' dω'.
-    const double compression = wi.z / (eta_ * eta_ * i.w.z);
-    return (1.0 - specular_probability(o.transmitted)) * neumann::pdf(*nested_, p, o.w, i.w) * compression;
+    return (1.0 - specular_probability(o.transmitted)) * neumann::pdf(*nested_, p, o.w, i.w) * compression(wi, i);
 }
 
-BsdfSample Coating::sample(const ShadingPoint& p, const Vec3& wo, Vec2 u) const {
+template <class Draw>
+BsdfSample Coating::sample_by(const Draw& draw, const ShadingPoint& p, const Vec3& wo, Vec2 u) const {
     if (wo.z <= 0.0) return {};
     const Inside o = inside(wo);
     const double probability = specular_probability(o.transmitted);
     if (choose_first(probability, u.x))
         return {Vec3(-wo.x, -wo.y, wo.z), specular_(p) * ((1.0 - o.transmitted) / probability), delta_pdf};
     if (!nested_) return {};
-    const BsdfSample below = neumann::sample(*nested_, p, o.w, u);
+    const BsdfSample below = draw(o.w, u);
     if (below.pdf == 0.0 || below.wi.z <= 0.0) return {};
     const double square = eta_ * eta_ * below.wi.z * below.wi.z - (eta_ - 1.0) * (eta_ + 1.0);
     if (square <= 0.0) return {};  // reflected inwards
@@ -62,6 +63,25 @@ BsdfSample Coating::sample(const ShadingPoint& p, const Vec3& wo, Vec2 u) const 
     const Rgb weight = below.weight * absorbed(p, o.w.z, below.wi.z) * (o.transmitted * (1.0 - fresnel(wi.z)) / rest);
     if (below.pdf == delta_pdf) return {wi, weight, delta_pdf};
     return {wi, weight, rest * below.pdf * wi.z / (eta_ * eta_ * below.wi.z)};
+}
+
+BsdfSample Coating::sample(const ShadingPoint& p, const Vec3& wo, Vec2 u) const {
+    return sample_by([&](const Vec3& inside, const Vec2& v) { return neumann::sample(*nested_, p, inside, v); }, p, wo, u);
+}
+
+double Coating::pdf_from_light(const ShadingPoint& p, const Vec3& wi, const Vec3& wo) const {
+    if (!nested_ || wo.z <= 0.0 || wi.z <= 0.0) return 0.0;
+    const Inside o = inside(wo), i = inside(wi);
+    if (o.transmitted <= 0.0 || i.transmitted <= 0.0) return 0.0;
+    return (1.0 - specular_probability(i.transmitted)) * neumann::pdf_from_light(*nested_, p, i.w, o.w) * compression(wo, o);
+}
+
+BsdfSample Coating::sample_from_light(const ShadingPoint& p, const Vec3& wi, Vec2 u) const {
+    BsdfSample drawn = sample_by(
+        [&](const Vec3& inside, const Vec2& v) { return neumann::sample_from_light(*nested_, p, inside, v); }, p, wi, u);
+    // A tilted mirror below keeps dω', and not dω.
+    if (drawn.pdf == delta_pdf) drawn.weight *= compression(wi, inside(wi)) / compression(drawn.wi, inside(drawn.wi));
+    return drawn;
 }
 
 // With cosθi dωi = η² cosθi' dωi' the albedo is at most s F(cosθo) + (1 − F(cosθo)) a exp(−2 σ), where a is the albedo of the

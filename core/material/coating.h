@@ -26,6 +26,8 @@ public:
     Rgb eval(const ShadingPoint& p, const Vec3& wo, const Vec3& wi) const;
     double pdf(const ShadingPoint& p, const Vec3& wo, const Vec3& wi) const;
     BsdfSample sample(const ShadingPoint& p, const Vec3& wo, Vec2 u) const;
+    double pdf_from_light(const ShadingPoint& p, const Vec3& wi, const Vec3& wo) const;
+    BsdfSample sample_from_light(const ShadingPoint& p, const Vec3& wi, Vec2 u) const;
     Rgb reflectance(const ShadingPoint&) const { return Rgb(1.0); }
     const Coating& white() const { return *this; }
     Rgb largest_albedo() const;
@@ -42,9 +44,13 @@ private:
         double transmitted;
     };
     Inside inside(const Vec3& w) const;
+    // dω'/dω, as cosθ dω = η² cosθ' dω'.
+    double compression(const Vec3& w, const Inside& inside) const;
     double fresnel(double cosine) const;
     // The probability of sampling the boundary, which lets this share through.
     double specular_probability(double transmitted) const;
+    template <class Draw>
+    BsdfSample sample_by(const Draw& draw, const ShadingPoint& p, const Vec3& wo, Vec2 u) const;
     Rgb absorbed(const ShadingPoint& p, double cosine_o, double cosine_i) const;
 
     std::shared_ptr<const Bsdf> nested_;

@@ -22,6 +22,19 @@ BsdfSample Mask::sample(const ShadingPoint& p, const Vec3& wo, Vec2 u) const {
     return sampled;
 }
 
+double Mask::pdf_from_light(const ShadingPoint& p, const Vec3& wi, const Vec3& wo) const {
+    return nested_ ? opacity_(p).r * neumann::pdf_from_light(*nested_, p, wi, wo) : 0.0;
+}
+
+BsdfSample Mask::sample_from_light(const ShadingPoint& p, const Vec3& wi, Vec2 u) const {
+    const double opacity = opacity_(p).r;
+    if (!choose_first(opacity, u.x)) return {-wi, Rgb(1.0), delta_pdf};
+    if (!nested_) return {};
+    BsdfSample sampled = neumann::sample_from_light(*nested_, p, wi, u);
+    sampled.pdf *= opacity;
+    return sampled;
+}
+
 // o a + 1 − o lies between its values at the ends of o.
 Rgb Mask::bound(const Rgb& nested) const {
     const Rgb& opacity = opacity_.upper_bound();

@@ -22,6 +22,8 @@ public:
     Rgb eval(const ShadingPoint& p, const Vec3& wo, const Vec3& wi) const;
     double pdf(const ShadingPoint& p, const Vec3& wo, const Vec3& wi) const;
     BsdfSample sample(const ShadingPoint& p, const Vec3& wo, Vec2 u) const;
+    double pdf_from_light(const ShadingPoint& p, const Vec3& wi, const Vec3& wo) const;
+    BsdfSample sample_from_light(const ShadingPoint& p, const Vec3& wi, Vec2 u) const;
     Rgb reflectance(const ShadingPoint&) const { return Rgb(1.0); }
     const Mask& white() const { return *this; }
     Rgb largest_albedo() const;

@@ -43,6 +43,9 @@ public:
     Rgb eval(const ShadingPoint& p, const Vec3& wo, const Vec3& wi) const;
     double pdf(const ShadingPoint& p, const Vec3& wo, const Vec3& wi) const;
     BsdfSample sample(const ShadingPoint& p, const Vec3& wo, const Vec2& u) const;
+    // Which of the two normals a delta lobe mirrors at depends on ωo, so that light from ωi may leave by both: both are tried.
+    double pdf_from_light(const ShadingPoint& p, const Vec3& wi, const Vec3& wo) const;
+    BsdfSample sample_from_light(const ShadingPoint& p, const Vec3& wi, const Vec2& u) const;
     Rgb reflectance(const ShadingPoint& p) const;
     PerturbedNormal white() const;
     Rgb largest_albedo() const;
@@ -58,7 +61,11 @@ private:
         Frame frame;
         ShadingPoint p;
     };
+    Vec3 normal(const ShadingPoint& p) const;  // not mirrored, nor normalized
+    bool is_mirrored(const Vec3& normal, const Vec3& wo) const;
+    Perturbed perturbed(const ShadingPoint& p, Vec3 normal, bool mirrored) const;
     Perturbed perturbed(const ShadingPoint& p, const Vec3& wo) const;
+    bool may_leave_by_both(const ShadingPoint& p, const Vec3& wi) const;
     double shadowing(const Vec3& normal, const Vec3& wi) const;
 
     Normal normal_;

@@ -98,7 +98,9 @@ void allow_bias(MethodChoice& choice, double work, const std::vector<MethodPilot
     const double rays = std::min(affordable, to_goal), error = work / rays;
     const std::string unbiased = name_of(choice.method);
     double least = clearly_better * error;
-    for (const MethodPilot& trial : make_pilots(biased_candidates(), small, of_trial, watch, true)) {
+    const std::vector<MethodPilot> trials = make_pilots(biased_candidates(), small, of_trial, watch, true);
+    if (watch.stop()) choice.why += "; methods with a bias were left out: their pilots would take too long";
+    for (const MethodPilot& trial : trials) {
         const double of_pilot = error_with_bias(trial, known);
         choice.trials.push_back(described(trial, of_pilot));
         // Without a number of samples they refine patches, rays and samples together, and their errors fall about as 1/√rays; with

@@ -44,7 +44,7 @@ public:
         const bool lawful = is_lawful(*side.bsdf);
         Sample result;
         if (lawful || choose_first(0.5, u.x)) {
-            const BsdfSample drawn = neumann::sample(*side.bsdf, side.p, frame.to_local(wi), u);
+            const BsdfSample drawn = sample_from_light(*side.bsdf, side.p, frame.to_local(wi), u);
             result.wo = frame.to_world(drawn.wi);
             result.pdf = drawn.pdf;
             if (drawn.pdf == delta_pdf) {
@@ -67,7 +67,7 @@ public:
     // The pdf of sample(), per solid angle, without delta lobes.
     static double pdf(const SurfaceSide& side, const Vec3& wi, const Vec3& wo) {
         const Vec3 local = side.p.frame.to_local(wo);
-        const double drawn = neumann::pdf(*side.bsdf, side.p, side.p.frame.to_local(wi), local);
+        const double drawn = pdf_from_light(*side.bsdf, side.p, side.p.frame.to_local(wi), local);
         if (is_lawful(*side.bsdf)) return drawn;
         const bool both = transmits(*side.bsdf);
         const double any = both ? 0.5 * std::abs(local.z) * inv_pi : std::max(local.z, 0.0) * inv_pi;

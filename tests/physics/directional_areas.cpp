@@ -47,6 +47,26 @@ TEST(DirectionalAreas, ShineAlongTheirNormal) {
     }
 }
 
+// However it is turned, the rounding of its own points lets none of its light fall on itself.
+TEST(DirectionalAreas, DoNotShineOnThemselves) {
+    Sampler random(fixed_seed, 0);
+    for (std::uint64_t i = 0; i < 1000; ++i) {
+        random.start(i);
+        const Vec3 z = uniform_sphere(random.next2()), corner = uniform_sphere(random.next2()) * 3.0;
+        const Frame frame(z);
+        SceneMaker maker;
+        if (i % 2 == 0)
+            maker.add(parallelogram(corner, frame.s * 0.7, frame.t * 1.3), beam_of(M));
+        else
+            maker.add(Disk{corner, frame.s * 0.7, frame.t * 0.7, z}, beam_of(M));
+        const Scene scene = maker.make();
+        for (int k = 0; k < 8; ++k) {
+            const SurfacePoint x = scene.geometry.point(0, 0, random.next2());
+            ASSERT_EQ(scene.emitters.distant_irradiance(0, x.position), 0.0) << i;
+        }
+    }
+}
+
 // A disc may be an ellipse with oblique axes.
 TEST(DirectionalAreas, HaveTheCrossSectionOfTheirShape) {
     SceneMaker maker;

@@ -174,7 +174,7 @@ class Render(Case):
         self.assertIsNone(neumann.compare(one, two).mean_difference_interval95)
         with self.assertRaisesRegex(neumann.InputError, "^a series against a picture"):
             neumann.compare(series, files[0])
-        with self.assertRaisesRegex(neumann.InputError, "none.exr: cannot be read"):
+        with self.assertRaisesRegex(neumann.InputError, "none.exr: there is no such file"):
             neumann.compare(self.folder / "none.exr", files[0])
 
 

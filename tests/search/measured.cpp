@@ -113,6 +113,7 @@ Measured measure(const std::string& method, const BounceSeries& series) {
     measured.misses_paths = series.paths != Paths::all || says(series.warnings, "missing");
     // `surface` says so of itself where surfaces touch.
     const bool believes = !says(series.warnings, "is infinite, even if the samples do not show it");
+    const bool knows_normals = !says(series.warnings, "patches know no shading normals");
     const auto add = [&](const std::string& name, const PixelEstimate& picture, const PictureMeans& means, bool holds, bool unmet) {
         if (!all_of(picture.mean, is_value) || !all_of(picture.standard_error, is_error) ||
             !all_of(picture.discretisation, is_value) || !is_value(means.all.mean) || !is_error(means.all.standard_error))
@@ -128,12 +129,14 @@ Measured measure(const std::string& method, const BounceSeries& series) {
         const BounceReport& b = report.bounces[i];
         PictureMeans means = series.means_of_term(i);
         means.all = b.mean;  // with the bound on what no sample met
-        add(fmt::format("bounce {}", i), series.term(i), means, !b.infinite_variance && !b.rare_large_samples, b.unmet);
+        const bool holds = !b.infinite_variance && !b.rare_large_samples && (i < 2 || knows_normals);
+        add(fmt::format("bounce {}", i), series.term(i), means, holds, b.unmet);
     }
     if (report.rest_verdict == RestVerdict::measured && series.rest) {
         PictureMeans means = *series.means_of_rest;
         means.all = report.rest;
-        add("the rest", *series.rest, means, !report.rest_infinite_variance && !report.rest_rare_large_samples, report.rest_unmet);
+        const bool holds = !report.rest_infinite_variance && !report.rest_rare_large_samples && knows_normals;
+        add("the rest", *series.rest, means, holds, report.rest_unmet);
     }
     return measured;
 }

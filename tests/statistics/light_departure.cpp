@@ -3,6 +3,7 @@
 #include "core/reader/read_scene.h"
 #include "core/sampling/sampler.h"
 #include "operators/pointwise/adjoint_reflection.h"
+#include "tests/physics/scene_maker.h"
 #include "tests/physics/seed.h"
 
 #include <gtest/gtest.h>
@@ -146,6 +147,63 @@ TEST(AdjointReflectionSlow, ReflectsAsTheMaterialsSay) {
                 EXPECT_LE(std::abs(share), 4.5 * std::sqrt(share2 - share * share / n) + 5.0) << things << ", shape " << shape;
             }
     }
+}
+
+// The same of delta lobes under tilted normals, which mirror at other normals for other ωo: by light from everywhere,
+//
+//     ∫ h(ωo) E[w g(ωi)] |ωo·n| dωo by R  =  ∫ g(ωi) E[w* h(ωo)] |ωi·n| dωi by R*,
+//
+// as both are ⟨h, R g⟩. Eight materials by three tilts; |z| ≤ 4.5.
+TEST(AdjointReflectionSlow, MirrorsAtTiltedNormalsAsTheMaterialsSay) {
+    const auto shared = [](Bsdf bsdf) { return std::make_shared<const Bsdf>(std::move(bsdf)); };
+    for (const double tilt : {0.3, 0.8, 1.3})
+        for (int number = 0; number < 8; ++number) {
+            const Vec3 n(std::sin(tilt) * 0.8, std::sin(tilt) * 0.6, std::cos(tilt));
+            const auto tilted = [&](Bsdf nested, bool flips = true, bool from_behind = false) {
+                return Bsdf(PerturbedNormal([n](const ShadingPoint&) { return n; }, shared(std::move(nested)),
+                                            {flips, number != 1, from_behind}));
+            };
+            const Bsdf mirror = Conductor({}, Rgb(0.9)), plastic = Plastic(1.5, Rgb(0.6), Rgb(1.0), true);
+            std::vector<Bsdf> bsdfs;
+            switch (number) {
+                case 0:
+                case 1: bsdfs = {tilted(mirror)}; break;
+                case 2: bsdfs = {tilted(mirror, false)}; break;
+                case 3: bsdfs = {tilted(plastic)}; break;
+                case 4: bsdfs = {Blend(shared(Diffuse(Rgb(0.5))), shared(tilted(mirror)), Rgb(0.6))}; break;
+                case 5:
+                    bsdfs = {Mask(shared(tilted(plastic)), Rgb(0.7)), Mask(shared(tilted(plastic, true, true)), Rgb(0.7))};
+                    break;
+                case 6: bsdfs = {Coating(shared(tilted(mirror)), 1.4, Rgb(0.2), Rgb(0.8))}; break;
+                default: bsdfs = {tilted(Dielectric(1.5)), tilted(Dielectric(1.0 / 1.5), true, true)};
+            }
+            SceneMaker maker;
+            maker.add(parallelogram({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}),
+                      bsdfs.size() > 1 ? boundary(bsdfs[0], bsdfs[1]) : made_of(bsdfs[0]));
+            const Scene scene = maker.make();
+            const SurfacePoint x = scene.geometry.point(0, 0, Vec2(0.4));
+            const auto g = [](const Vec3& w) { return 1.0 + 0.8 * w.x + w.z * w.y; };
+            const auto h = [](const Vec3& w) { return 1.0 - 0.6 * w.y + 0.9 * w.x * w.z; };
+            constexpr int count = 100000;
+            double difference = 0.0, squares = 0.0;
+            Sampler random(fixed_seed, 3 + static_cast<std::uint32_t>(number));
+            for (int i = 0; i < count; ++i) {
+                random.start(static_cast<std::uint64_t>(i));
+                const Vec3 w = uniform_sphere(random.next2());
+                const SurfaceSide side = scene.materials.side(x, w);
+                const Vec2 u = random.next2();
+                if (!side.bsdf) continue;
+                const double cosine = std::abs(glm::dot(x.normal, w)) * 4.0 * pi;
+                const BsdfSample by_camera = sample(*side.bsdf, side.p, side.p.frame.to_local(w), u);
+                const AdjointReflection::Sample by_light = AdjointReflection::sample(scene.materials, side, w, u);
+                double d = 0.0;
+                if (by_camera.pdf > 0.0) d += h(w) * by_camera.weight.g * g(side.p.frame.to_world(by_camera.wi)) * cosine;
+                if (by_light.pdf > 0.0) d -= g(w) * by_light.weight.g * h(by_light.wo) * cosine;
+                difference += d;
+                squares += d * d;
+            }
+            EXPECT_LE(std::abs(difference), 4.5 * std::sqrt(squares)) << "material " << number << ", tilt " << tilt;
+        }
 }
 
 }  // namespace neumann::physics::light_departure_test
