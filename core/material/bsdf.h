@@ -55,8 +55,8 @@ inline double pdf(const Bsdf& bsdf, const ShadingPoint& p, const Vec3& wo, const
 inline BsdfSample sample(const Bsdf& bsdf, const ShadingPoint& p, const Vec3& wo, const Vec2& u) {
     return visit_fast(bsdf, [&](const auto& b) { return b.sample(p, wo, u); });
 }
-// For paths from lights, whose ωi is given: sample() and pdf() with the directions exchanged, where that finds all ωo that light goes
-// to. The weights of delta lobes alone count: fs(ωi → ωo) |cosθo| / pdf by R's fs, with cosines about the normal that mirrors.
+// For paths from lights, whose ωi is given: sample() and pdf() with the directions exchanged, where that finds all ωo that light
+// goes to. The weights of delta lobes alone count: fs(ωi → ωo) |cosθo| / pdf by R's fs, with cosines about the normal that mirrors.
 inline BsdfSample sample_from_light(const Bsdf& bsdf, const ShadingPoint& p, const Vec3& wi, const Vec2& u) {
     return visit_fast(bsdf, [&](const auto& b) {
         if constexpr (requires { b.sample_from_light(p, wi, u); })

@@ -77,8 +77,8 @@ double Coating::pdf_from_light(const ShadingPoint& p, const Vec3& wi, const Vec3
 }
 
 BsdfSample Coating::sample_from_light(const ShadingPoint& p, const Vec3& wi, Vec2 u) const {
-    BsdfSample drawn = sample_by(
-        [&](const Vec3& inside, const Vec2& v) { return neumann::sample_from_light(*nested_, p, inside, v); }, p, wi, u);
+    BsdfSample drawn =
+        sample_by([&](const Vec3& inside, const Vec2& v) { return neumann::sample_from_light(*nested_, p, inside, v); }, p, wi, u);
     // A tilted mirror below keeps dω', and not dω.
     if (drawn.pdf == delta_pdf) drawn.weight *= compression(wi, inside(wi)) / compression(drawn.wi, inside(drawn.wi));
     return drawn;

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 #include <Eigen/LU>
 
+#include <cmath>
+
 namespace neumann::rest_test {
 
 // K as a matrix, each channel by itself, and the last unknown for nothing.
@@ -70,6 +72,20 @@ TEST(SeriesRest, LightThatGoesToAndFro) {
     expect_right(K, {1.0, 0.0}, 400);
     K << 0.0, 0.93, 0.88, 0.0;
     expect_right(K, {1.0, 0.0}, 4);
+}
+
+// Mirrors that send light round: it comes back to each unknown after some bounces, and not between.
+TEST(SeriesRest, LightThatGoesRound) {
+    for (const Eigen::Index round : {3, 4, 7, 12})
+        for (const double albedo : {0.5, 0.95}) {
+            Eigen::MatrixXd K = Eigen::MatrixXd::Zero(round + 2, round + 2);
+            for (Eigen::Index u = 0; u < round; ++u) K((u + 1) % round, u) = albedo;
+            K.bottomRightCorner(2, 2) << 0.2, 0.3, 0.1, 0.4;
+            std::vector<double> term(static_cast<std::size_t>(round) + 2, 0.0);
+            term[0] = 1.0;
+            term[static_cast<std::size_t>(round)] = 0.1;
+            expect_right(K, term, static_cast<int>(4.0 * std::log(closing_error) / std::log(albedo)));
+        }
 }
 
 TEST(SeriesRest, NothingLeft) {

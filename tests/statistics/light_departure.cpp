@@ -167,15 +167,26 @@ TEST(AdjointReflectionSlow, MirrorsAtTiltedNormalsAsTheMaterialsSay) {
             std::vector<Bsdf> bsdfs;
             switch (number) {
                 case 0:
-                case 1: bsdfs = {tilted(mirror)}; break;
-                case 2: bsdfs = {tilted(mirror, false)}; break;
-                case 3: bsdfs = {tilted(plastic)}; break;
-                case 4: bsdfs = {Blend(shared(Diffuse(Rgb(0.5))), shared(tilted(mirror)), Rgb(0.6))}; break;
+                case 1:
+                    bsdfs = {tilted(mirror)};
+                    break;
+                case 2:
+                    bsdfs = {tilted(mirror, false)};
+                    break;
+                case 3:
+                    bsdfs = {tilted(plastic)};
+                    break;
+                case 4:
+                    bsdfs = {Blend(shared(Diffuse(Rgb(0.5))), shared(tilted(mirror)), Rgb(0.6))};
+                    break;
                 case 5:
                     bsdfs = {Mask(shared(tilted(plastic)), Rgb(0.7)), Mask(shared(tilted(plastic, true, true)), Rgb(0.7))};
                     break;
-                case 6: bsdfs = {Coating(shared(tilted(mirror)), 1.4, Rgb(0.2), Rgb(0.8))}; break;
-                default: bsdfs = {tilted(Dielectric(1.5)), tilted(Dielectric(1.0 / 1.5), true, true)};
+                case 6:
+                    bsdfs = {Coating(shared(tilted(mirror)), 1.4, Rgb(0.2), Rgb(0.8))};
+                    break;
+                default:
+                    bsdfs = {tilted(Dielectric(1.5)), tilted(Dielectric(1.0 / 1.5), true, true)};
             }
             SceneMaker maker;
             maker.add(parallelogram({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}),
