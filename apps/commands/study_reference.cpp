@@ -6,6 +6,7 @@
 #include "apps/files/reference.h"
 #include "apps/files/series_files.h"
 #include "core/base/error.h"
+#include "core/base/input_file.h"
 #include "core/base/stopwatch.h"
 #include "core/image/image_io.h"
 #include "operators/methods/method_options.h"
@@ -106,7 +107,7 @@ fs::path cache_path(const fs::path& cache, const Json& identity) {
 }
 
 bool is_cached(const fs::path& folder, const Json& identity) {
-    std::ifstream file(folder / "run.json");
+    std::ifstream file = open_if_there(folder / "run.json");
     return file && Json::parse(file, nullptr, false) == identity;
 }
 

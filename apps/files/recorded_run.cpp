@@ -2,6 +2,7 @@
 
 #include "apps/files/method_json.h"
 #include "core/base/error.h"
+#include "core/base/input_file.h"
 #include "core/reader/read_scene.h"
 #include "operators/pictures/path_group.h"
 
@@ -43,7 +44,7 @@ RecordedRun recorded_run(const Json& json, const std::string& folder) {
 RecordedRun read_recorded_run(const std::string& folder) {
     if (!std::filesystem::is_directory(folder)) throw InputError(folder + ": is not a folder; expected that of a render");
     const std::string path = (std::filesystem::path(folder) / "run.json").string();
-    std::ifstream file(path);
+    std::ifstream file = open_if_there(path);
     if (!file) throw InputError(path + ": cannot be read; expected the folder of a finished render");
     try {
         return recorded_run(Json::parse(file), folder);

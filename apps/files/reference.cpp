@@ -2,6 +2,7 @@
 
 #include "apps/files/series_files.h"
 #include "core/base/error.h"
+#include "core/base/input_file.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -35,7 +36,7 @@ void Reference::judge(const std::function<Image(std::size_t)>& term, const Image
 }
 
 void warn_of_reference(const std::string& folder, const BounceSeries& series, Warnings& warnings) {
-    std::ifstream file(std::filesystem::path(folder) / "run.json");
+    std::ifstream file = open_if_there(std::filesystem::path(folder) / "run.json");
     const auto run = nlohmann::json::parse(file, nullptr, false);
     if (run.is_discarded()) return;
     const auto is = [&](const char* part, const nlohmann::json& value) {

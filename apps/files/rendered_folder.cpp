@@ -5,6 +5,7 @@
 #include "apps/files/scene_json.h"
 #include "apps/files/series_files.h"
 #include "core/base/error.h"
+#include "core/base/input_file.h"
 
 #include <fmt/format.h>
 
@@ -22,7 +23,7 @@ using Json = nlohmann::ordered_json;
 Json read_run(const fs::path& path) {
     Json run;
     try {
-        std::ifstream file(path, std::ios::binary);
+        std::ifstream file = open_if_there(path);
         if (!file && fs::exists(path.parent_path() / unfinished_render_file))
             throw InputError(fmt::format("{0}: holds a render that was not finished; neumann render --resume {0} goes on with it",
                                          path.parent_path().string()));
@@ -84,7 +85,7 @@ ShownSeries RenderedFolder::series() const {
 }
 
 std::optional<std::string> RenderedFolder::text(const std::string& name) const {
-    std::ifstream file(path_ / name, std::ios::binary);
+    std::ifstream file = open_if_there(path_ / name);
     if (!file) return std::nullopt;
     std::ostringstream text;
     if (!(text << file.rdbuf())) throw InputError((path_ / name).string() + ": cannot be read");

@@ -4,6 +4,7 @@
 #include "apps/files/saved_fields.h"
 #include "apps/files/state_file.h"
 #include "core/base/error.h"
+#include "core/base/input_file.h"
 
 #include <fmt/format.h>
 
@@ -179,7 +180,7 @@ RequestOnDisk request_in_file(const std::filesystem::path& path) {
 RequestOnDisk request_in(const std::filesystem::path& folder) {
     if (const auto saved = saved_render_in(folder)) return request_in_file(*saved);
     const std::filesystem::path path = folder / "run.json";
-    std::ifstream file(path);
+    std::ifstream file = open_if_there(path);
     if (!file) throw InputError(folder.string() + ": holds no render that could be resumed");
     try {
         const Json json = Json::parse(file);

@@ -2,6 +2,7 @@
 
 #include "apps/files/json_text.h"
 #include "core/base/error.h"
+#include "core/base/input_file.h"
 #include "core/geometry/ray_caster.h"
 
 #define XXH_INLINE_ALL
@@ -59,7 +60,7 @@ void write_state(OutputFolder& folder, Json header, std::vector<std::string_view
 }
 
 StateFile::StateFile(const std::filesystem::path& path)
-    : path_(path), file_(path, std::ios::binary), hash_(std::make_unique<StateHash>()) {
+    : path_(path), file_(open_if_there(path)), hash_(std::make_unique<StateHash>()) {
     if (!file_) throw InputError(path.string() + ": cannot be read");
     std::error_code error;
     left_ = std::filesystem::file_size(path, error);

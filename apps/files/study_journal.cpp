@@ -3,6 +3,7 @@
 #include "apps/files/json_text.h"
 #include "apps/files/new_file.h"
 #include "core/base/error.h"
+#include "core/base/input_file.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -92,7 +93,7 @@ StudyJournal::~StudyJournal() {
 }
 
 void StudyJournal::read() {
-    std::ifstream file(lines_path_, std::ios::binary);
+    std::ifstream file = open_if_there(lines_path_);
     off_t whole = 0;
     try {
         for (std::string line; std::getline(file, line) && !file.eof();) {

@@ -6,6 +6,7 @@
 #include "apps/sheets/strips.h"
 #include "apps/sheets/superscript.h"
 #include "core/base/error.h"
+#include "core/base/input_file.h"
 #include "core/image/image_io.h"
 
 #include <fmt/format.h>
@@ -46,7 +47,7 @@ std::vector<std::string> beginning_with(const std::vector<std::string>& files, c
 }
 
 std::optional<std::pair<int, int>> blocks_in(const std::string& folder) {
-    std::ifstream file(fs::path(folder) / "unbounce.json");
+    std::ifstream file = open_if_there(fs::path(folder) / "unbounce.json");
     const Json json = Json::parse(file, nullptr, false);
     if (!json.is_object() || !json.contains("blocks") || !json["blocks"].is_array() || json["blocks"].size() != 2)
         return std::nullopt;

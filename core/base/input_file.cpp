@@ -58,6 +58,14 @@ void expect_input(const std::string& path, const std::string& expected) {
     if (const auto why = why_not_input(path, expected)) throw InputError(Location{path, 0, 0}, *why);
 }
 
+std::ifstream open_if_there(const fs::path& path) {
+    std::error_code error;
+    const fs::file_status status = fs::status(path, error);
+    if (fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status))
+        throw InputError(Location{path.string(), 0, 0}, "is a pipe or a device, expected a file");
+    return std::ifstream(path, std::ios::binary);
+}
+
 std::string read_input(const std::string& path, const std::string& expected) {
     expect_input(path, expected);
     std::error_code error;

@@ -1,6 +1,8 @@
 // Files that readers open.
 #pragma once
 
+#include <filesystem>
+#include <fstream>
 #include <optional>
 #include <string>
 
@@ -15,5 +17,9 @@ void expect_input(const std::string& path, const std::string& expected = "a file
 
 // Its bytes. Throws InputError.
 std::string read_input(const std::string& path, const std::string& expected = "a file");
+
+// For files that may be missing: then the stream has failed. Throws InputError if it is a pipe or a device, at which reading would
+// wait.
+std::ifstream open_if_there(const std::filesystem::path& path);
 
 }  // namespace neumann

@@ -2,6 +2,7 @@
 #include "apps/commands/checkpoints.h"
 #include "tests/commands/resumed_renders.h"
 
+#include <sys/stat.h>
 #include <random>
 
 namespace neumann::render_resume_test {
@@ -49,6 +50,26 @@ TEST_F(RenderResume, FromAnyNumberToAnyOther) {
     EXPECT_EQ(refused({"render", "--resume", "b", "--spp", "288"}), "--spp 288: b has 320 samples a pixel already\n");
     expect_done({"render", "--resume", "b", "--spp", "1000", "--quiet"});
     expect_same("a", "b");
+}
+
+// Reading from a pipe would wait for ever.
+TEST_F(RenderResume, PipesInPlaceOfRecordsAreRefused) {
+    for (const std::string name : {"run.json", "render.samples", "render.unfinished", "study.journal"}) {
+        const std::string folder = "of_" + name, said = folder + "/" + name + ": is a pipe or a device, expected a file\n";
+        std::filesystem::create_directory(path(folder));
+        ASSERT_EQ(::mkfifo(path(folder + "/" + name).c_str(), 0600), 0);
+        if (name == "study.journal") {
+            EXPECT_EQ(
+                refused({"study", "scene.xml", "--methods", "walk,bidirectional", "--budgets", "1,2", "--resume", "-o", folder}),
+                said);
+        } else {
+            EXPECT_EQ(refused({"render", "--resume", folder}), said);
+        }
+        if (name == "run.json") {
+            EXPECT_EQ(refused({"page", folder}), said);
+            EXPECT_EQ(refused({"replay", folder, "1"}), said);
+        }
+    }
 }
 
 TEST_F(RenderResume, UntilAnErrorIsReached) {

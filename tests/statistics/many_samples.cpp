@@ -1,5 +1,8 @@
 // More samples make no picture worse: eight million samples of a pixel are added up as exactly as a few.
+#include "core/reader/read_scene.h"
 #include "operators/known/scene_maker.h"
+#include "operators/methods/method_options.h"
+#include "operators/methods/render.h"
 #include "operators/pictures/field_rendering.h"
 
 #include <gtest/gtest.h>
@@ -40,6 +43,26 @@ TEST(ManySamplesSlow, OfFields) {
             // Bounce 1 asks lights at points of its own: one sample in two of them is 1/√n of it off.
             const double noise = i == 1 && reading != FieldReading::patches ? 4.5 * mean.standard_error + 2e-3 : 0.0;
             EXPECT_NEAR(mean.mean, exact, (noise + 3e-7) * exact) << static_cast<int>(reading) << ", bounce " << i;
+        }
+    }
+}
+
+// Sums in single precision would be 1% off after four million samples of a pixel, which is three standard errors here at least, and
+// for most methods a thousand. 12 comparisons; |z| ≤ 4.5.
+TEST(ManySamplesSlow, OfPaths) {
+    const Scene scene = read_scene(SCENES "/furnace/furnace.xml", {{"res", "1"}, {"albedo", "0.7"}});
+    for (const char* method : {"walk", "guided", "light", "bidirectional", "photon", "metropolis"}) {
+        Goal goal;
+        goal.bounces = 1;
+        goal.samples = 1u << 22;
+        goal.replicates = 16;
+        goal.only_pictures = true;
+        const BounceSeries found = render(scene, read_method(method), goal);
+        for (std::size_t i = 0; i <= 1; ++i) {
+            const double exact = std::pow(albedo, static_cast<double>(i));
+            const MeanWithError& mean = found.report.bounces[i].mean;
+            EXPECT_LE(mean.standard_error, 3.3e-3 * exact) << method << ", bounce " << i << ": no power";
+            EXPECT_NEAR(mean.mean, exact, 4.5 * mean.standard_error + 1e-6 * exact) << method << ", bounce " << i;
         }
     }
 }
