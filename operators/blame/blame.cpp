@@ -246,15 +246,13 @@ private:
             right.our_sum = right.ours.mean;
             std::vector<WrongPictures> wrong;
             if (c.bounces.first == 0) wrong = moved_pictures({right}, are_sums());
-            if (c.bounces.last == 0)
-                wrong.push_back({"factor", "a factor", {scaled(right.ours, fitted_factor(c.theirs, c.ours))}});
+            if (c.bounces.last == 0) wrong.push_back({"factor", "a factor", {scaled(right.ours, fitted_factor(c.theirs, c.ours))}});
             for (const WrongTerms& w : *made)
                 if (c.bounces.last == 0 ? w.mistake != Mistake::clamped : is_of_sure_light(w.mistake))
                     wrong.push_back({name_of(w.mistake), describe(w.mistake), {w.terms[i]}});
             const double threshold = false_alarms / static_cast<double>(2 * compared_.size() * wrong.size());
             const auto consider = [&](const WrongPictures& w, const SurePixels& found, double most_left) {
-                if (found.p < threshold && found.left < std::min(most_left, causes[i].left))
-                    causes[i] = {w.words, found.left};
+                if (found.p < threshold && found.left < std::min(most_left, causes[i].left)) causes[i] = {w.words, found.left};
             };
             const SureLight light{right.ours, samples};
             for (const WrongPictures& w : wrong) {
@@ -279,9 +277,8 @@ private:
         std::vector<Suspect> suspects = find_suspects(expected_, terms, are_sums(), shapes_seen(scene_));
         const auto likeliest = std::ranges::min_element(suspects, {}, &Suspect::misfit);
         const bool is_likely = misfit_of_none(terms) - likeliest->misfit > strong_evidence;
-        const bool is_explained = sure.is_found() || std::ranges::any_of(suspects, [](const Suspect& s) {
-                                      return s.is_a_cause && s.explains();
-                                  });
+        const bool is_explained =
+            sure.is_found() || std::ranges::any_of(suspects, [](const Suspect& s) { return s.is_a_cause && s.explains(); });
         v.differs = is_likely && (is_explained || are_independent(c));
         if (v.differs) {
             std::ranges::stable_partition(suspects, [&](const Suspect& s) { return s.words == sure.words; });

@@ -48,8 +48,8 @@ double correlation_factor(const Image& difference, int c) {
 
 // A channel of a block before its neighbours have been asked.
 struct BlockNoise {
-    double variance = 0.0;                // of a pixel
-    double level = 0.0;                   // of the brighter of both pictures
+    double variance = 0.0;                             // of a pixel
+    double level = 0.0;                                // of the brighter of both pictures
     double squares = 0.0, cubes = 0.0, fourths = 0.0;  // sums over pixels of the difference less its mean, to these powers
 };
 

@@ -29,8 +29,8 @@ struct DifferenceTest {
 };
 
 // The noise of a block is the larger one of its pixels' spread and what the pictures say. In a block that rare bright samples have
-// missed it is hidden, so that its variance is at least that of the 3×3 blocks around it, in units of their light. Neighbouring pixels
-// may be correlated, as those of wide pixel filters are. Differences below 0.02% of the mean do not count.
+// missed it is hidden, so that its variance is at least that of the 3×3 blocks around it, in units of their light. Neighbouring
+// pixels may be correlated, as those of wide pixel filters are. Differences below 0.02% of the mean do not count.
 BlockDifferences block_differences(const PictureNoise& a, const PictureNoise& b);
 
 // Compares means over these blocks and over all pixels.

@@ -9,14 +9,12 @@ namespace neumann {
 
 namespace {
 
-constexpr double beyond_chance = 3.0;  // standard deviations of a sum of squares
+constexpr double beyond_chance = 4.0;  // standard deviations of a sum of squares
 
 // With noise alone a sum of n squares in three channels that go together has this standard deviation.
 double by_chance(std::size_t n) { return std::sqrt(18.0 * static_cast<double>(n)); }
 
-double part(double all, double left, double chance) {
-    return all > beyond_chance * chance ? 1.0 - std::abs(left) / all : 0.0;
-}
+double part(double all, double left, double chance) { return all > beyond_chance * chance ? 1.0 - std::abs(left) / all : 0.0; }
 
 }  // namespace
 

@@ -29,8 +29,8 @@ struct ComparedTerm {
     BounceRange bounces;
     PictureNoise theirs, ours;
     std::optional<Image> half_difference;  // of theirs, by two seeds
-    Image left_open;                // variance that our few samples leave open in each pixel, beside what they show
-    Image our_sum_before, our_sum;  // Σ K^k Le over the bounces before the range, and up to its end
+    Image left_open;                       // variance that our few samples leave open in each pixel, beside what they show
+    Image our_sum_before, our_sum;         // Σ K^k Le over the bounces before the range, and up to its end
 };
 
 // `are_sums`: the other renderer wrote pictures with all bounces up to a limit, so that what it does to pictures it does to these.

@@ -77,7 +77,8 @@ double times_the_variance(const Image& picture, const PictureNoise& known) {
 Estimate difference_of(const PictureNoise& a, const PictureNoise& b) {
     Estimate difference{a.mean, a.variance};
     Rgb least(0.0);
-    for (int c = 0; c < 3; ++c) least[c] = rounding_of_pictures * std::max(std::abs(mean_of(a.mean, c)), std::abs(mean_of(b.mean, c)));
+    for (int c = 0; c < 3; ++c)
+        least[c] = rounding_of_pictures * std::max(std::abs(mean_of(a.mean, c)), std::abs(mean_of(b.mean, c)));
     for (std::size_t i = 0; i < difference.mean.pixels.size(); ++i) {
         difference.mean.pixels[i] -= b.mean.pixels[i];
         difference.standard_error.pixels[i] = glm::sqrt(a.variance.pixels[i] + b.variance.pixels[i] + least * least);

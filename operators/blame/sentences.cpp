@@ -45,13 +45,14 @@ std::string those_before(const std::vector<TermVerdict>& terms, std::size_t wron
 
 // Where it is not known whether something is wrong, and what would tell it.
 std::string what_is_unclear(const TermVerdict& term, std::uint64_t samples) {
-    const std::string is_apart = fmt::format(
-        "It cannot be told whether {} {} right: {} {:.4g} ± {:.2g} of our light", to_string(term.bounces),
-        is_one(term.bounces) ? "is" : "are", is_one(term.bounces) ? "it has" : "they have", term.test.ratio, 1.96 * term.test.ratio_error);
+    const std::string is_apart =
+        fmt::format("It cannot be told whether {} {} right: {} {:.4g} ± {:.2g} of our light", to_string(term.bounces),
+                    is_one(term.bounces) ? "is" : "are", is_one(term.bounces) ? "it has" : "they have", term.test.ratio,
+                    1.96 * term.test.ratio_error);
     switch (*term.doubt) {
         case TermVerdict::Doubt::few_samples:
-            return fmt::format("{}, and there are not enough samples of ours, {} a pixel, to say why; --time S takes more.", is_apart,
-                               samples);
+            return fmt::format("{}, and there are not enough samples of ours, {} a pixel, to say why; --time S takes more.",
+                               is_apart, samples);
         case TermVerdict::Doubt::shared_numbers:
             return fmt::format(
                 "{}, too much or too little over wide areas, by more than your pixels' own noise, and no mistake that is tried "

@@ -10,7 +10,8 @@ namespace {
 
 // The chance that a right renderer with so many samples a pixel comes halfway or more from `right` to `wrong`, by Chebyshev's
 // inequality. By the rule of three n samples that agree leave a part of 3/n open.
-double chance_of_half(const PictureNoise& ours, const SureLight& right, const PictureNoise& wrong, std::size_t i, double their_samples) {
+double chance_of_half(const PictureNoise& ours, const SureLight& right, const PictureNoise& wrong, std::size_t i,
+                      double their_samples) {
     const PictureNoise& picture = right.picture;
     const Rgb change = wrong.mean.pixels[i] - picture.mean.pixels[i], most = glm::max(picture.mean.pixels[i], wrong.mean.pixels[i]),
               of_sample = picture.variance.pixels[i] * right.samples + most * most * (3.0 / right.samples),

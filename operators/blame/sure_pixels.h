@@ -1,5 +1,6 @@
 // Differences that fill few pixels, which blocks do not show: moved edges, lamps that are not seen. They are told by pixels whose
-// light is sure, in that most samples bring it. Every right renderer has it there within its noise, which is as likely above as below.
+// light is sure, in that most samples bring it. Every right renderer has it there within its noise, which is as likely above as
+// below.
 #pragma once
 
 #include "operators/blame/picture_noise.h"

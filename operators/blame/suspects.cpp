@@ -23,8 +23,7 @@ public:
         for (std::size_t i = 0; i < terms_.size(); ++i)
             sum += misfit(terms_[i].theirs, wrong[i], is_smoothed ? terms_[i].ours.variance : wrong[i].variance);
         const ComparedTerm& first = terms_.front();
-        all_.push_back({name, words, sum, is_fitted, is_a_cause, explained_.by(wrong[0]),
-                        test_difference(first.theirs, wrong[0])});
+        all_.push_back({name, words, sum, is_fitted, is_a_cause, explained_.by(wrong[0]), test_difference(first.theirs, wrong[0])});
     }
 
     std::vector<Suspect> likeliest_first() {
@@ -32,8 +31,7 @@ public:
         constexpr double unexplained = 1e-3, most_of_it = 0.9;
         const double best = all_.front().misfit, right = misfit_of_none(terms_);
         std::stable_partition(all_.begin(), all_.end(), [&](const Suspect& s) {
-            return !s.is_fitted && s.left.p > unexplained &&
-                   (right - s.misfit > most_of_it * (right - best) || s.explains());
+            return !s.is_fitted && s.left.p > unexplained && (right - s.misfit > most_of_it * (right - best) || s.explains());
         });
         std::map<std::string, double> most_explained;
         for (const Suspect& s : all_) most_explained[s.name] = std::max(most_explained[s.name], s.explained);
@@ -61,7 +59,9 @@ std::vector<Suspect> find_suspects(ExpectedPictures& expected, const std::vector
                                    const std::vector<std::uint32_t>& shapes) {
     Suspects suspects(terms);
     for (const WrongPictures& w : wrong_pictures(terms, are_sums, shapes))
-        suspects.add(w.name, w.words, w.terms, w.parameters, w.parameters > 0, w.is_smoothed, w.is_a_cause);
+        // What is shifted or blurred is so in the first picture that there is.
+        suspects.add(w.name, w.words, w.terms, w.parameters, w.parameters > 0, w.is_smoothed,
+                     w.is_a_cause && (!w.is_smoothed || terms.front().bounces.first == 0));
     std::vector<BounceRange> ranges;
     for (const ComparedTerm& t : terms) ranges.push_back(t.bounces);
     for (const WrongTerms& w : *expected.wrong(ranges)) {

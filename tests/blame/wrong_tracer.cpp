@@ -135,8 +135,9 @@ Rgb WrongTracer::trace(Vec2 position, int bounces, Numbers& numbers) const {
         if (scene_.emitters.is_emitter(hit.shape) && (in_front || bug_ == Bug::two_sided_light)) {
             const Vec3 d = hit.position - from;
             double weight = alone || sampling_.lamps == Sampling::Lamps::hit ? 1.0
-                            : sampling_.lamps == Sampling::Lamps::hemisphere ? 0.0
-                                                                             : mis_weight(density, lamp_density(glm::dot(d, d), cosine));
+                            : sampling_.lamps == Sampling::Lamps::hemisphere
+                                ? 0.0
+                                : mis_weight(density, lamp_density(glm::dot(d, d), cosine));
             // Lamps are in the list of lights and not among the surfaces that shine.
             if (bug_ == Bug::no_emission && bounce == 0) weight = 0.0;
             // The lamp is taken to have been asked at the surface before, which a mirror does not do.
@@ -221,7 +222,8 @@ Rgb WrongTracer::light_by_hemisphere(const SurfacePoint& x, const Frame& frame, 
     const double up = numbers.next(), angle = 2.0 * pi * numbers.next(), radius = std::sqrt(1.0 - up * up);
     const Vec3 w = frame.to_world({radius * std::cos(angle), radius * std::sin(angle), up});
     SurfacePoint y;
-    if (!scene_.geometry.first_hit(x, w, y) || !scene_.emitters.is_emitter(y.shape) || glm::dot(y.normal, w) >= 0.0) return Rgb(0.0);
+    if (!scene_.geometry.first_hit(x, w, y) || !scene_.emitters.is_emitter(y.shape) || glm::dot(y.normal, w) >= 0.0)
+        return Rgb(0.0);
     return brdf * scene_.emitters.even_radiance(y.shape) * (2.0 * pi * up);
 }
 
