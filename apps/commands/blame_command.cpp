@@ -99,12 +99,15 @@ void print_places(const std::vector<WorstPlace>& places, const Scene& scene) {
 void print(const Blame& found, const Scene& scene, const std::string& output) {
     fmt::print("{:<16}{:>12}{:>26}  {}\n", "", "theirs/ours", "95% interval", "by chance");
     for (const TermVerdict& t : found.terms)
-        fmt::print(
-            "{:<16}{:>12.4f}{:>26}  {}{}\n", to_string(t.bounces), t.test.ratio, fmt::format("± {:.2g}", 1.96 * t.test.ratio_error),
-            t.test.p > 0.001 ? fmt::format("{:.2g}", t.test.p) : fmt::format("{:.0e}", t.test.p), t.differs ? "  differs" : "");
+        fmt::print("{:<16}{:>12.4f}{:>26}  {}{}\n", to_string(t.bounces), t.test.ratio,
+                   fmt::format("± {:.2g}", 1.96 * t.test.ratio_error),
+                   t.test.p > 0.001 ? fmt::format("{:.2g}", t.test.p) : fmt::format("{:.0e}", t.test.p),
+                   t.differs ? "  differs"
+                   : t.doubt ? "  unclear"
+                             : "");
     fmt::print("\n");
     for (const std::string& sentence : found.sentences) fmt::print("{}\n", sentence);
-    if (!found.is_right()) {
+    if (found.first_wrong) {
         constexpr std::size_t shown = 5;
         fmt::print("\nLikeliest, with −2 log of how much less likely than the first:\n");
         for (std::size_t i = 0; i < std::min(shown, found.suspects.size()); ++i)

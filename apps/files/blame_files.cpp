@@ -51,6 +51,7 @@ Json term_json(const TermVerdict& term, const Scene& scene) {
             {"p", json_number(term.test.p)},
             {"threshold", term.threshold},
             {"differs", term.differs},
+            {"unclear", term.doubt.has_value()},
             {"worst", worst}};
 }
 
@@ -74,7 +75,8 @@ std::string path_text(const OurPath& path, const Scene& scene) {
 
 Json blame_json(const Blame& found, const Scene& scene) {
     Json json;
-    json["right"] = found.is_right();
+    json["verdict"] = name_of(found.verdict());
+    json["right"] = found.verdict() == Blame::Verdict::right;
     json["counting"] = name_of(found.counting);
     if (found.told) json["counting_by_the_data"] = name_of(*found.told);
     json["noise_known"] = found.knows_their_noise;

@@ -19,9 +19,9 @@ facts("facts", [
 const chance = p => p === null ? "–" : p < 1e-300 ? "0" : number(p, 2);
 $("terms").append(table(["", "theirs / ours", "95% interval", "by chance", "largest block, in standard errors", ""], data.terms.map(t => [
   titleOf(t), t.ratio === null ? "–" : t.ratio.toFixed(4), t.ratio === null ? "" : `± ${number(1.96 * t.ratio_stderr, 2)}`, chance(t.p),
-  t.worst.length ? number(t.worst[0].z, 2) : "", t.differs ? element("b", "differs") : "agrees"]), [5]));
-$("terms-note").textContent = `By chance: the probability that pictures of the same light differ so much. A bounce differs below ${number(data.terms[0].threshold, 2)}, ` +
-  "or in bounces 0 and 1 where a mistake explains the pixels much better than none.";
+  t.worst.length ? number(t.worst[0].z, 2) : "", t.differs ? element("b", "differs") : t.unclear ? "unclear" : "agrees"]), [5]));
+$("terms-note").textContent = `By chance: the probability that pictures of the same light differ so much. A bounce differs below ${number(data.terms[0].threshold, 2)} ` +
+  "if a mistake explains it, or their pixels do not share random numbers; otherwise it is unclear. In bounces 0 and 1 few pixels, whose light is sure, may tell it, too.";
 $("suspected").hidden = !data.suspects.length;
 if (data.suspects.length) $("suspects").append(table(["", "if"], data.suspects.slice(0, 8).map(s => [
   s.misfit === null || data.suspects[0].misfit === null ? "–" : Math.round(s.misfit - data.suspects[0].misfit).toString(), s.words]), [1]));
@@ -124,7 +124,7 @@ const show = async (term, i) => {
     const p = y * packed.width + x, at = planes => rgb([0, 1, 2].map(c => planes[p + c * pixels]));
     readout.textContent = `${x * packed.factor}, ${y * packed.factor}: theirs ${at(theirs.mean)}; ours ${at(ours.mean)}; difference ${number(value(p))}, ${number(z(p), 2)} standard errors`;
   };
-  section.append(element("h3", `${title[0].toUpperCase()}${title.slice(1)} ${term.differs ? (term.first === term.last ? "differs" : "differ") : term.first === term.last ? "agrees" : "agree"}`), row, readout);
+  section.append(element("h3", `${title[0].toUpperCase()}${title.slice(1)} ${(word => term.first === term.last ? word[0] : word[1])(term.differs ? ["differs", "differ"] : term.unclear ? ["is unclear", "are unclear"] : ["agrees", "agree"])}`), row, readout);
   if (term.worst.length) section.append(listed(term));
   shownTerms[i] = { theirs, ours, difference, value, z, error, most };
   return section;

@@ -1,8 +1,9 @@
 #include "operators/blame/blame.h"
 
-#include "operators/blame/path_mistakes.h"
 #include "operators/blame/picture_mistakes.h"
 #include "operators/blame/sentences.h"
+#include "operators/blame/shared_numbers.h"
+#include "operators/blame/sure_pixels.h"
 
 #include <fmt/format.h>
 
@@ -10,7 +11,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -18,9 +18,14 @@ namespace neumann {
 
 namespace {
 
-// A picture mistake is an alarm of its own, beside the tests of blocks, if it is so much likelier than none: moved edges fill few
-// pixels. In 100 seeds of a right renderer none was.
+// A mistake is likelier than none by so much, as −2 log of the likelihood.
 constexpr double strong_evidence = 40.0;
+// What a mistake leaves of the squared difference, in pixels that chance hardly changes, and in all that the camera sees of lamps.
+// There a shift is known roughly: of one by half a pixel a third is left. Pixels that share four samples all take them off the
+// middle, in 1 of 20 pictures so far that as little is left.
+constexpr double most_left_of_sure = 0.1, most_left_of_signs = 0.35;
+// Two pictures of one renderer whose chance to differ so is less are further apart than their noise.
+constexpr double agreement_of_seeds = 0.05;
 constexpr std::size_t places_a_term = 3;
 constexpr std::uint64_t most_replayed = 64;  // samples of a pixel, from which a path is chosen
 
@@ -48,6 +53,10 @@ Scene on_their_film(const Scene& scene, const Image& picture) {
     film.width = film.crop_width = picture.width;
     film.height = film.crop_height = picture.height;
     return scene.with(film);
+}
+
+bool is_black_everywhere(const Image& image) {
+    return std::all_of(image.pixels.begin(), image.pixels.end(), [](const Rgb& c) { return is_black(c); });
 }
 
 PictureNoise noise_of(const PixelEstimate& picture) {
@@ -122,9 +131,8 @@ public:
         choose_counting(pictures, ours);
         judge_noise(pictures, ours);
         compare(terms_of(pictures, result_.counting), ours);
-        find_first_wrong();
+        judge_terms();
         if (result_.first_wrong) {
-            find_suspects();
             find_shapes();
             find_places(ours);
         }
@@ -175,7 +183,13 @@ private:
         result_.knows_their_noise =
             std::all_of(theirs.begin(), theirs.end(), [](const OtherTerm& t) { return t.variance.has_value(); });
         for (OtherTerm& t : theirs) {
-            ComparedTerm c{t.bounces, {std::move(t.mean), {}}, sum_of(ours, t.bounces), left_open(ours, t.bounces), {}, {}};
+            ComparedTerm c{t.bounces,
+                           {std::move(t.mean), {}},
+                           sum_of(ours, t.bounces),
+                           std::move(t.half_difference),
+                           left_open(ours, t.bounces),
+                           {},
+                           {}};
             c.theirs.variance = t.variance ? std::move(*t.variance) : likely_variance(t.bounces, ours);
             c.our_sum = ours.sum(static_cast<std::size_t>(t.bounces.last)).mean;
             c.our_sum_before = Image(c.our_sum.width, c.our_sum.height);
@@ -184,20 +198,16 @@ private:
         }
     }
 
-    void find_first_wrong() {
-        std::vector<BounceRange> direct;
-        for (const ComparedTerm& c : compared_)
-            if (c.bounces.last <= 1) direct.push_back(c.bounces);
-        const auto made = direct.empty() ? nullptr : expected_.wrong(direct);
-        const std::vector<WrongTerms> none;
-        const std::vector<WrongTerms>& wrong = made ? *made : none;
+    void judge_terms() {
+        const std::vector<SureCause> sure = find_sure_causes();
         for (std::size_t i = 0; i < compared_.size(); ++i) {
             const ComparedTerm& c = compared_[i];
             TermVerdict v;
             v.bounces = c.bounces;
             v.test = test_difference(c.theirs, c.ours);
             v.threshold = false_alarms / static_cast<double>(compared_.size());
-            v.differs = v.test.p < v.threshold || (!result_.first_wrong && is_clearly_something_else(i, wrong));
+            v.differs = v.test.p < v.threshold;
+            if (!result_.first_wrong && (v.differs || sure[i].is_found())) look_into(v, i, sure[i]);
             v.theirs = c.theirs;
             v.ours = c.ours;
             v.difference = difference_of({c.theirs.mean, believed_one_by_one(c.theirs.variance, c, times_)},
@@ -208,75 +218,110 @@ private:
         }
     }
 
-    // Whether a mistake is clearly likelier than none: differences of few pixels do not show in blocks. Beyond bounce 1 fireflies
-    // that are missing by chance look like mistakes of paths, and beyond bounce 0 blurring takes noise away, which looks like one,
-    // too.
-    bool is_clearly_something_else(std::size_t i, const std::vector<WrongTerms>& wrong) const {
+    // A mistake that pixels whose light is sure go along with.
+    struct SureCause {
+        std::string words;
+        double left = 1.0;
+        bool is_found() const { return !words.empty(); }
+    };
+
+    // Of each term. What moves pixels shows in what the camera sees of lamps, and so does what changes bounce 0 alone; what
+    // reflections by mirrors lack in those.
+    std::vector<SureCause> find_sure_causes() {
+        std::vector<SureCause> causes(compared_.size());
+        std::vector<BounceRange> direct;
+        for (const ComparedTerm& c : compared_)
+            if (c.bounces.last <= 1) direct.push_back(c.bounces);
+        if (direct.empty()) return causes;
+        const auto made = expected_.wrong(direct);
+        const double samples = expected_.paths_a_pixel();
+        const auto none = std::ranges::find(*made, Mistake::none, &WrongTerms::mistake);
+        const double theirs = direct.front() == BounceRange{0, 0}
+                                  ? fewest_samples(compared_.front().theirs, compared_.front().ours, {none->terms[0], samples})
+                                  : 1.0;
+        for (std::size_t i = 0; i < direct.size(); ++i) {
+            const ComparedTerm& c = compared_[i];
+            ComparedTerm right = c;
+            right.ours = none->terms[i];
+            right.our_sum = right.ours.mean;
+            std::vector<WrongPictures> wrong;
+            if (c.bounces.first == 0) wrong = moved_pictures({right}, are_sums());
+            if (c.bounces.last == 0) wrong.push_back({"factor", "a factor", {scaled(right.ours, fitted_factor(c.theirs, c.ours))}});
+            for (const WrongTerms& w : *made)
+                if (c.bounces.last == 0 ? w.mistake != Mistake::clamped : is_of_sure_light(w.mistake))
+                    wrong.push_back({name_of(w.mistake), describe(w.mistake), {w.terms[i]}});
+            const double threshold = false_alarms / static_cast<double>(2 * compared_.size() * wrong.size());
+            const auto consider = [&](const WrongPictures& w, const SurePixels& found, double most_left) {
+                if (found.p < threshold && found.left < std::min(most_left, causes[i].left)) causes[i] = {w.words, found.left};
+            };
+            const SureLight light{right.ours, samples};
+            for (const WrongPictures& w : wrong) {
+                consider(w, test_sure_pixels(c.theirs, c.ours, light, w.terms[0], theirs), most_left_of_sure);
+                if (c.bounces.last == 0) consider(w, test_signs(c.theirs, c.ours, light, w.terms[0]), most_left_of_signs);
+            }
+        }
+        return causes;
+    }
+
+    static bool is_of_sure_light(Mistake mistake) {
+        return mistake == Mistake::no_emission || mistake == Mistake::no_light_after_mirror || mistake == Mistake::no_mirrors;
+    }
+
+    // A term that is further apart from ours than chance explains. It differs if some mistake is clearly likelier than none, and
+    // either one explains the difference, or their pixels are known not to have shared their errors. The term after it is explained
+    // with it.
+    void look_into(TermVerdict& v, std::size_t i, const SureCause& sure) {
         const ComparedTerm& c = compared_[i];
-        if (c.bounces.last > 1) return false;
-        const PictureNoise theirs{c.theirs.mean, believed_one_by_one(c.theirs.variance, c, times_)};
-        // Lamps fill parts of blocks, whose spread then hides a factor.
-        if (c.bounces.first == 0 && evidence_for(theirs, scaled(c.ours, fitted_factor(theirs, c.ours)), c.ours) > strong_evidence)
-            return true;
-        if (c.bounces.first == 0)
-            for (const WrongPictures& moved : moved_pictures({c}, are_sums()))
-                if (evidence_for(theirs, moved.terms[0], c.ours) > strong_evidence) return true;
-        const auto none = std::ranges::find(wrong, Mistake::none, &WrongTerms::mistake);  // of the same paths
-        return std::any_of(wrong.begin(), wrong.end(), [&](const WrongTerms& w) {
-            return w.mistake != Mistake::clamped && evidence_for(theirs, w.terms[i], none->terms[i]) > strong_evidence &&
-                   evidence_for(theirs, w.terms[i], c.ours) > strong_evidence;
-        });
+        const auto from = compared_.begin() + static_cast<std::ptrdiff_t>(i);
+        const std::vector<ComparedTerm> terms(from, from + std::min<std::ptrdiff_t>(2, compared_.end() - from));
+        std::vector<Suspect> suspects = find_suspects(expected_, terms, are_sums(), shapes_seen(scene_));
+        const auto likeliest = std::ranges::min_element(suspects, {}, &Suspect::misfit);
+        const bool is_likely = misfit_of_none(terms) - likeliest->misfit > strong_evidence;
+        const bool is_explained =
+            sure.is_found() || std::ranges::any_of(suspects, [](const Suspect& s) { return s.is_a_cause && s.explains(); });
+        v.differs = is_likely && (is_explained || are_independent(c));
+        if (v.differs) {
+            std::ranges::stable_partition(suspects, [&](const Suspect& s) { return s.words == sure.words; });
+            result_.suspects = std::move(suspects);
+        } else {
+            v.doubt = is_likely ? doubt_about(c) : TermVerdict::Doubt::few_samples;
+        }
     }
 
-    // The first wrong term and the one after it are explained together.
-    void find_suspects() {
-        const std::size_t first = *result_.first_wrong, count = std::min<std::size_t>(2, compared_.size() - first);
-        const std::vector<ComparedTerm> terms(compared_.begin() + static_cast<std::ptrdiff_t>(first),
-                                              compared_.begin() + static_cast<std::ptrdiff_t>(first + count));
-        const auto n = static_cast<double>(terms.front().ours.mean.pixels.size() * 3 * count);
-        const auto add = [&](const std::string& name, const std::string& words, const std::vector<PictureNoise>& wrong,
-                             int parameters, bool is_fitted, bool is_smoothed = false) {
-            double sum = parameters * std::log(n);
-            for (std::size_t i = 0; i < count; ++i)
-                sum += misfit(terms[i].theirs, wrong[i], is_smoothed ? terms[i].ours.variance : wrong[i].variance);
-            result_.suspects.push_back({name, words, sum, is_fitted, test_difference(terms[0].theirs, wrong[0])});
-        };
-        for (const WrongPictures& w : wrong_pictures(terms, are_sums(), shapes_seen(scene_)))
-            add(w.name, w.words, w.terms, w.parameters, w.parameters > 0, w.is_smoothed);
-        std::vector<BounceRange> ranges;
-        for (const ComparedTerm& t : terms) ranges.push_back(t.bounces);
-        for (const WrongTerms& w : *expected_.wrong(ranges)) {
-            if (w.mistake == Mistake::none) continue;
-            add(name_of(w.mistake), describe(w.mistake), w.terms, 0, false);
-            if (w.mistake != Mistake::no_inverse_square) continue;
-            // Without 1/d² light has no unit, and may have any scale.
-            const double factor = fitted_factor(terms[0].theirs, w.terms[0]);
-            std::vector<PictureNoise> rescaled;
-            for (const PictureNoise& p : w.terms) rescaled.push_back(scaled(p, factor));
-            add(name_of(w.mistake), describe(w.mistake), rescaled, 1, false);
+    // Their two pictures, if they are not the same.
+    static std::optional<std::pair<PictureNoise, PictureNoise>> two_seeds(const ComparedTerm& c) {
+        if (!c.half_difference || is_black_everywhere(*c.half_difference)) return std::nullopt;
+        std::pair<PictureNoise, PictureNoise> two(c.theirs, c.theirs);
+        for (std::size_t p = 0; p < c.theirs.mean.pixels.size(); ++p) {
+            two.first.mean.pixels[p] += c.half_difference->pixels[p];
+            two.second.mean.pixels[p] -= c.half_difference->pixels[p];
         }
-        for (const WrongPictures& w : *expected_.without_techniques(ranges)) add(w.name, w.words, w.terms, 0, false);
-        std::stable_sort(result_.suspects.begin(), result_.suspects.end(),
-                         [](const Suspect& a, const Suspect& b) { return a.misfit < b.misfit; });
-        put_causes_first();
-        // Of each kind the likeliest.
-        std::set<std::string> seen;
-        std::erase_if(result_.suspects, [&](const Suspect& s) { return !seen.insert(s.name).second; });
+        return two;
     }
 
-    // A cause that leaves nothing unexplained comes before factors and offsets that were fitted and say no why.
-    void put_causes_first() {
-        constexpr double unexplained = 1e-3, most_of_it = 0.9;
-        const ComparedTerm& c = compared_[*result_.first_wrong];
-        const double best = result_.suspects.front().misfit;
-        double right = misfit(c.theirs, c.ours);
-        if (*result_.first_wrong + 1 < compared_.size()) {
-            const ComparedTerm& next = compared_[*result_.first_wrong + 1];
-            right += misfit(next.theirs, next.ours);
-        }
-        std::stable_partition(result_.suspects.begin(), result_.suspects.end(), [&](const Suspect& s) {
-            return !s.is_fitted && s.left.p > unexplained && right - s.misfit > most_of_it * (right - best);
-        });
+    // Whether their pixels have random numbers of their own.
+    static bool are_independent(const ComparedTerm& c) {
+        const auto two = two_seeds(c);
+        return smooth_part(c.theirs, c.ours) < most_if_independent ||
+               (two && !seeds_differ(*two) && smooth_part(two->first, two->second) < most_if_independent);
+    }
+
+    static bool seeds_differ(const std::pair<PictureNoise, PictureNoise>& two) {
+        return test_difference(two.first, two.second).p < agreement_of_seeds;
+    }
+
+    static TermVerdict::Doubt doubt_about(const ComparedTerm& c) {
+        if (const auto two = two_seeds(c); two && seeds_differ(*two)) return TermVerdict::Doubt::seeds_differ;
+        return is_mostly_ours(c) ? TermVerdict::Doubt::few_samples : TermVerdict::Doubt::shared_numbers;
+    }
+
+    // Whether our own noise is most of what hides the difference.
+    static bool is_mostly_ours(const ComparedTerm& c) {
+        double ours = 0.0, all = 0.0;
+        for (const Rgb& v : c.ours.variance.pixels) ours += v.r + v.g + v.b;
+        for (const BlockDifference& b : block_differences(c.theirs, c.ours).blocks)
+            all += (b.noise.r + b.noise.g + b.noise.b) * b.pixels() * b.pixels();
+        return ours > 0.5 * all;
     }
 
     bool are_sums() const { return result_.counting != Counting::bounces; }
@@ -326,6 +371,22 @@ private:
 };
 
 }  // namespace
+
+const char* name_of(Blame::Verdict verdict) {
+    switch (verdict) {
+        case Blame::Verdict::right:
+            return "right";
+        case Blame::Verdict::wrong:
+            return "wrong";
+        default:
+            return "unclear";
+    }
+}
+
+const TermVerdict* Blame::first_doubtful() const {
+    const auto found = std::ranges::find_if(terms, [](const TermVerdict& t) { return t.doubt.has_value(); });
+    return found == terms.end() ? nullptr : &*found;
+}
 
 Blame blame(const Scene& scene, std::vector<DepthPicture> pictures, const BlameSettings& settings, const Watch& watch) {
     check(pictures, settings.counting);

@@ -5,6 +5,7 @@
 #include "operators/blame/difference_test.h"
 #include "operators/blame/expected_pictures.h"
 #include "operators/blame/other_pictures.h"
+#include "operators/blame/suspects.h"
 #include "operators/blame/worst_places.h"
 #include "operators/watch.h"
 
@@ -22,22 +23,22 @@ struct BlameSettings {
 };
 
 struct TermVerdict {
+    // Why it cannot be told. Right renderers, too, make pictures that look as if something were wrong.
+    enum class Doubt {
+        few_samples,     // of ours: what is seen may be our noise, or no mistake is clearly likelier than none
+        shared_numbers,  // theirs differ over wide areas by more than their own noise, and no mistake explains it
+        seeds_differ     // and so do their pictures of two seeds
+    };
+
     BounceRange bounces;
     DifferenceTest test;
-    double threshold = 0.0;  // the term differs where test.p is below
+    double threshold = 0.0;  // the pictures are further apart than chance explains where test.p is below
     bool differs = false;
+    std::optional<Doubt> doubt;  // if the pictures are further apart than chance explains and it does not differ all the same
     PictureNoise theirs, ours;
     Estimate difference;            // theirs less ours
     Image z;                        // the same in standard errors of the pixel
     std::vector<WorstPlace> worst;  // if it differs
-};
-
-// What may be wrong, likeliest first.
-struct Suspect {
-    std::string name, words;
-    double misfit = 0.0;     // −2 log of the likelihood, with 2 log n for each parameter that was fitted; differences count
-    bool is_fitted = false;  // a factor or an offset, which describes and does not explain
-    DifferenceTest left;     // of the first wrong term against what this mistake makes of it
 };
 
 struct ShapeShare {
@@ -47,6 +48,8 @@ struct ShapeShare {
 };
 
 struct Blame {
+    enum class Verdict { right, wrong, unclear };
+
     Counting counting = Counting::mitsuba;
     std::optional<Counting> told;    // where the data say something else
     bool knows_their_noise = false;  // from a second picture or a variance; otherwise it is ours times a number
@@ -57,10 +60,13 @@ struct Blame {
     std::uint64_t samples = 0;       // of ours, a pixel
     std::vector<std::string> sentences;
 
-    bool is_right() const { return !first_wrong; }
+    const TermVerdict* first_doubtful() const;
+    Verdict verdict() const { return first_wrong ? Verdict::wrong : first_doubtful() ? Verdict::unclear : Verdict::right; }
 };
 
-// The chance that a right renderer is called wrong, over all terms together.
+const char* name_of(Blame::Verdict verdict);
+
+// The chance that the pictures of a right renderer are further apart from ours than they should be, over all terms together.
 constexpr double false_alarms = 0.005;
 
 // `pictures`: of one size, which becomes that of the scene's film. Throws InputError as terms_of() does, if a value is

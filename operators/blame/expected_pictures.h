@@ -27,6 +27,7 @@ public:
     // Bounces 0 … `bounces` at least. All functions throw Stopped.
     std::shared_ptr<const BounceSeries> ours(int bounces);
     std::shared_ptr<const std::vector<WrongTerms>> wrong(const Ranges& ranges);
+    int paths_a_pixel() const;  // of these
     std::shared_ptr<const std::vector<WrongPictures>> without_techniques(const Ranges& ranges);
 
     // Pictures of mistakes are large: all but the last that were asked for are thrown away, unless they are kept for others.
@@ -40,7 +41,6 @@ private:
     };
     template <class T, class Make>
     std::shared_ptr<const T> find_or_make(std::vector<Made<T>>& all, const Ranges& ranges, const Make& make);
-    int paths_a_pixel() const;
 
     Scene scene_;
     std::optional<std::uint64_t> samples_;

@@ -18,6 +18,11 @@ Image difference(const Image& a, const Image& b) {
     return result;
 }
 
+std::optional<Image> difference(const std::optional<Image>& a, const std::optional<Image>& b) {
+    if (!a || !b) return std::nullopt;
+    return difference(*a, *b);
+}
+
 std::optional<Image> sum(const std::optional<Image>& a, const std::optional<Image>& b) {
     if (!a || !b) return std::nullopt;
     Image result = *a;
@@ -38,8 +43,11 @@ DepthPicture mean_of_two(int depth, const Image& a, const Image& b) {
         throw InputError(
             fmt::format("the pictures of depth {} have {}×{} and {}×{} pixels", depth, a.width, a.height, b.width, b.height));
     constexpr int reach = 2;
-    DepthPicture result{depth, a, Image(a.width, a.height)};
-    for (std::size_t i = 0; i < a.pixels.size(); ++i) result.mean.pixels[i] = (a.pixels[i] + b.pixels[i]) * 0.5;
+    DepthPicture result{depth, a, Image(a.width, a.height), difference(a, b)};
+    for (std::size_t i = 0; i < a.pixels.size(); ++i) {
+        result.mean.pixels[i] = (a.pixels[i] + b.pixels[i]) * 0.5;
+        result.half_difference->pixels[i] *= 0.5;
+    }
     for (int y = 0; y < a.height; ++y)
         for (int x = 0; x < a.width; ++x) {
             Rgb sum(0.0);
@@ -90,14 +98,15 @@ std::vector<OtherTerm> terms_of(std::vector<DepthPicture> pictures, Counting cou
             throw InputError(
                 fmt::format("a picture with the depth limit {} holds no bounce as {} counts", p.depth, name_of(counting)));
         if (counting == Counting::bounces) {
-            terms.push_back({{last, last}, p.mean, p.variance});
+            terms.push_back({{last, last}, p.mean, p.variance, p.half_difference});
         } else if (i == 0) {
-            terms.push_back({{0, last}, p.mean, p.variance});
+            terms.push_back({{0, last}, p.mean, p.variance, p.half_difference});
         } else {
             const DepthPicture& before = pictures[i - 1];
             terms.push_back({{last_bounce(counting, before.depth) + 1, last},
                              difference(p.mean, before.mean),
-                             sum(p.variance, before.variance)});
+                             sum(p.variance, before.variance),
+                             difference(p.half_difference, before.half_difference)});
         }
     }
     return terms;

@@ -22,7 +22,8 @@ int last_bounce(Counting counting, int depth);
 struct DepthPicture {
     int depth = 0;
     Image mean;
-    std::optional<Image> variance = {};  // of the mean, by pixel and channel, if it is known
+    std::optional<Image> variance = {};         // of the mean, by pixel and channel, if it is known
+    std::optional<Image> half_difference = {};  // of two pictures of which it is the mean: of the first less the second
 };
 
 // The mean of two pictures of one depth from different seeds, with the variance that their difference tells, averaged over 5×5
@@ -39,7 +40,7 @@ std::string to_string(const BounceRange& bounces);  // "bounce 2", "bounces 0 an
 struct OtherTerm {
     BounceRange bounces;
     Image mean;
-    std::optional<Image> variance;
+    std::optional<Image> variance, half_difference;
 };
 
 // The differences of consecutive pictures, or the pictures themselves for `bounces`. Sorts by depth. Throws InputError if a depth

@@ -119,9 +119,14 @@ private:
     bool are_sums_;
 };
 
-// By weighted least squares in which outliers weigh less. `pixels`: those that count.
+// By weighted least squares in which outliers weigh less, from the ratio of the sums on. `pixels`: those that count.
 double fitted_factor(const PictureNoise& theirs, const PictureNoise& ours, const std::vector<std::size_t>& pixels) {
-    double factor = 1.0;
+    double sum_theirs = 0.0, sum_ours = 0.0;
+    for (const std::size_t i : pixels) {
+        sum_theirs += mean_component(theirs.mean.pixels[i]);
+        sum_ours += mean_component(ours.mean.pixels[i]);
+    }
+    double factor = sum_theirs > 0.0 && sum_ours > 0.0 ? sum_theirs / sum_ours : 1.0;
     for (int step = 0; step < 10; ++step) {
         double top = 0.0, bottom = 0.0;
         for (const std::size_t i : pixels)
@@ -133,7 +138,7 @@ double fitted_factor(const PictureNoise& theirs, const PictureNoise& ours, const
                 top += weight * a * b;
                 bottom += weight * b * b;
             }
-        if (bottom > 0.0) factor = step == 0 ? top / bottom : 0.5 * (factor + top / bottom);
+        if (bottom > 0.0) factor = 0.5 * (factor + top / bottom);
     }
     return factor;
 }
@@ -179,8 +184,11 @@ void add_factors(std::vector<WrongPictures>& all, const std::vector<ComparedTerm
     std::map<std::uint32_t, std::vector<std::size_t>> by_shape;
     for (std::size_t i = 0; i < shapes.size(); ++i) by_shape[shapes[i]].push_back(i);
     WrongPictures everywhere{"factor", "", {}}, different{"factor_by_shape", "a factor that differs from shape to shape", {}};
+    different.is_a_cause = false;
     for (const ComparedTerm& t : terms) {
+        constexpr double more_than_luck = 0.2;
         const double factor = fitted_factor(t.theirs, t.ours, all_pixels(t.ours.mean));
+        if (everywhere.terms.empty()) everywhere.is_a_cause = std::abs(factor - 1.0) > more_than_luck;
         everywhere.words += fmt::format("{}{} is multiplied by {}", everywhere.words.empty() ? "" : ", ", to_string(t.bounces),
                                         factor_text(factor));
         everywhere.terms.push_back(scaled_evenly(t.ours, factor));
@@ -200,6 +208,7 @@ void add_factors(std::vector<WrongPictures>& all, const std::vector<ComparedTerm
 // The same light in every pixel too much or too little, by the median over the pixels.
 void add_offset(std::vector<WrongPictures>& all, const std::vector<ComparedTerm>& terms) {
     WrongPictures wrong{"offset", "", {}};
+    wrong.is_a_cause = false;
     for (const ComparedTerm& t : terms) {
         Rgb offset(0.0);
         for (int c = 0; c < 3; ++c) {

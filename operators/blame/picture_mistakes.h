@@ -6,6 +6,7 @@
 #include "operators/blame/other_pictures.h"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,13 +22,15 @@ struct WrongPictures {
     std::vector<PictureNoise> terms;
     int parameters = 0;
     bool is_smoothed = false;  // pixels are means of ours, and have less noise
+    bool is_a_cause = true;    // and nothing that luck may make, such as a factor of 1.1
 };
 
 struct ComparedTerm {
     BounceRange bounces;
     PictureNoise theirs, ours;
-    Image left_open;                // variance that our few samples leave open in each pixel, beside what they show
-    Image our_sum_before, our_sum;  // Σ K^k Le over the bounces before the range, and up to its end
+    std::optional<Image> half_difference;  // of theirs, by two seeds
+    Image left_open;                       // variance that our few samples leave open in each pixel, beside what they show
+    Image our_sum_before, our_sum;         // Σ K^k Le over the bounces before the range, and up to its end
 };
 
 // `are_sums`: the other renderer wrote pictures with all bounces up to a limit, so that what it does to pictures it does to these.

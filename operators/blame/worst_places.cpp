@@ -42,7 +42,7 @@ void look_into(WorstPlace& place, const Image& theirs, const Image& ours) {
 
 std::vector<WorstPlace> worst_places(const PictureNoise& theirs, const PictureNoise& ours, std::size_t most) {
     std::vector<WorstPlace> all, chosen;
-    for (const BlockDifference& b : block_differences(theirs, ours)) {
+    for (const BlockDifference& b : block_differences(theirs, ours).blocks) {
         all.push_back({});
         WorstPlace& place = all.back();
         place.x = b.x;

@@ -1,4 +1,5 @@
 // What shifts and filters make of pictures, and of their noise.
+#include "operators/blame/likelihood.h"
 #include "operators/blame/picture_mistakes.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +14,7 @@ namespace neumann::moved_pictures_test {
 // looks as if a black picture around a lamp were likelier with a wider filter.
 TEST(MovedPictures, OfOnePixelKeepItsRelativeError) {
     constexpr double mean = 3.0, variance = 0.5;
-    ComparedTerm term{{0, 0}, {}, {Image(9, 9), Image(9, 9)}, Image(9, 9), Image(9, 9), Image(9, 9)};
+    ComparedTerm term{{0, 0}, {}, {Image(9, 9), Image(9, 9)}, {}, Image(9, 9), Image(9, 9), Image(9, 9)};
     term.ours.mean.at(4, 4) = Rgb(mean);
     term.ours.variance.at(4, 4) = Rgb(variance);
     int spread = 0;
@@ -49,7 +50,7 @@ TEST(MovedPictures, AreNotLikelierForHavingLessNoise) {
         return p;
     };
     const auto gain = [&](const PictureNoise& theirs, const PictureNoise& ours) {
-        const ComparedTerm term{{0, 0}, theirs, ours, Image(size, size), Image(size, size), Image(size, size)};
+        const ComparedTerm term{{0, 0}, theirs, ours, {}, Image(size, size), Image(size, size), Image(size, size)};
         double best = 0.0;
         for (const WrongPictures& moved : moved_pictures({term}, false))
             if (moved.is_smoothed) best = std::max(best, misfit(theirs, ours) - misfit(theirs, moved.terms[0], ours.variance));

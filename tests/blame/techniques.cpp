@@ -63,7 +63,7 @@ TEST(TechniquesSlow, AreMissed) {
                               pictures_of(
                                   room, [](const Way&) { return true; }, 2),
                               settings);
-    EXPECT_TRUE(right.is_right()) << right.sentences.front();
+    EXPECT_TRUE(right.verdict() == Blame::Verdict::right) << right.sentences.front();
 }
 
 // What one kind lacks the others have, so that three times the whole light is left of the four; means within 4.5 of their standard

@@ -3,6 +3,7 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
+#include <numeric>
 #include <random>
 #include <stdexcept>
 #include <utility>
@@ -35,17 +36,34 @@ const Rgb largest_sample(1.0);
 
 }  // namespace
 
-// Independent numbers in [0, 1).
+// Numbers in [0, 1), independent of each other; `strata` above 1: the first of each of so many samples are stratified.
 class WrongTracer::Numbers {
 public:
-    explicit Numbers(std::uint64_t seed) : engine_(seed) {}
-    double next() { return static_cast<double>(engine_() >> 11) * 0x1p-53; }
+    Numbers(std::uint64_t seed, int strata) : engine_(seed), strata_(strata) {}
+    void start(int sample) {
+        sample_ = sample;
+        dimension_ = 0;
+    }
+    double next() {
+        constexpr std::size_t stratified = 12;
+        const double u = static_cast<double>(engine_() >> 11) * 0x1p-53;
+        if (strata_ < 2 || dimension_ == stratified) return u;
+        if (dimension_ == orders_.size()) {
+            std::vector<int>& order = orders_.emplace_back(static_cast<std::size_t>(strata_));
+            std::iota(order.begin(), order.end(), 0);
+            std::shuffle(order.begin(), order.end(), engine_);
+        }
+        return (orders_[dimension_++][static_cast<std::size_t>(sample_)] + u) / strata_;
+    }
 
 private:
     std::mt19937_64 engine_;
+    int strata_, sample_ = 0;
+    std::size_t dimension_ = 0;
+    std::vector<std::vector<int>> orders_;
 };
 
-WrongTracer::WrongTracer(const Scene& scene, Bug bug) : scene_(scene), bug_(bug) {
+WrongTracer::WrongTracer(const Scene& scene, Bug bug, Sampling sampling) : scene_(scene), bug_(bug), sampling_(sampling) {
     const Geometry& geometry = scene_.geometry;
     for (std::uint32_t shape = 0; shape < geometry.shapes().size(); ++shape) {
         if (!scene_.emitters.is_emitter(shape)) continue;
@@ -68,12 +86,14 @@ Image WrongTracer::picture(int bounces, int samples, std::uint64_t seed) const {
     oneapi::tbb::parallel_for(0, height, [&](int y) {
         for (int x = 0; x < width; ++x) {
             std::seed_seq words{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32),
-                                static_cast<std::uint32_t>(bounces), static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y)};
+                                static_cast<std::uint32_t>(bounces), sampling_.one_stream ? 0 : static_cast<std::uint32_t>(x),
+                                sampling_.one_stream ? 0 : static_cast<std::uint32_t>(y)};
             std::uint32_t mixed[2];
             words.generate(mixed, mixed + 2);
-            Numbers numbers(std::uint64_t{mixed[0]} << 32 | mixed[1]);
+            Numbers numbers(std::uint64_t{mixed[0]} << 32 | mixed[1], sampling_.stratified ? samples : 1);
             Rgb sum(0.0);
             for (int i = 0; i < samples; ++i) {
+                numbers.start(i);
                 const double across = numbers.next(), down = numbers.next();
                 sum += trace({x + across, y + down}, bounces, numbers);
             }
@@ -114,7 +134,10 @@ Rgb WrongTracer::trace(Vec2 position, int bounces, Numbers& numbers) const {
         // Le is asked for without looking on which side.
         if (scene_.emitters.is_emitter(hit.shape) && (in_front || bug_ == Bug::two_sided_light)) {
             const Vec3 d = hit.position - from;
-            double weight = alone ? 1.0 : mis_weight(density, lamp_density(glm::dot(d, d), cosine));
+            double weight = alone || sampling_.lamps == Sampling::Lamps::hit ? 1.0
+                            : sampling_.lamps == Sampling::Lamps::hemisphere
+                                ? 0.0
+                                : mis_weight(density, lamp_density(glm::dot(d, d), cosine));
             // Lamps are in the list of lights and not among the surfaces that shine.
             if (bug_ == Bug::no_emission && bounce == 0) weight = 0.0;
             // The lamp is taken to have been asked at the surface before, which a mirror does not do.
@@ -124,7 +147,7 @@ Rgb WrongTracer::trace(Vec2 position, int bounces, Numbers& numbers) const {
         if (bounce == bounces) return sum;
 
         // From here on the walk works for bounce + 1.
-        if (bounce + 1 >= 3) {
+        if (sampling_.roulette && bounce + 1 >= 3) {
             const double survival = std::min(max_component(beta), 0.95);
             if (numbers.next() >= survival) return sum;
             // Those that go on do not stand for those that ended.
@@ -137,7 +160,9 @@ Rgb WrongTracer::trace(Vec2 position, int bounces, Numbers& numbers) const {
             // cosθ is clamped at zero with the front's normal, also where the wall has two sides.
             if (bug_ == Bug::one_sided_walls && !in_front) return sum;
             const Rgb brdf = diffuse_brdf(diffuse->reflectance(p));
-            add(bounce + 1, beta * direct_light(hit, n, brdf, numbers));
+            if (sampling_.lamps == Sampling::Lamps::asked) add(bounce + 1, beta * direct_light(hit, n, brdf, numbers));
+            if (sampling_.lamps == Sampling::Lamps::hemisphere)
+                add(bounce + 1, beta * light_by_hemisphere(hit, p.frame, brdf, numbers));
             // By the cosine: the points above a disc.
             const double radius2 = numbers.next(), angle = 2.0 * pi * numbers.next(), radius = std::sqrt(radius2);
             const double up = std::sqrt(1.0 - radius2);
@@ -190,6 +215,16 @@ Rgb WrongTracer::direct_light(const SurfacePoint& x, const Vec3& normal, const R
     // The lamp does not become weaker with distance, and has been made as strong as it should be in the middle of the room.
     if (bug_ == Bug::no_inverse_square) light *= distance2 / (scene_.geometry.radius() * scene_.geometry.radius());
     return light;
+}
+
+// Light from a direction uniform over the hemisphere, reflected at x.
+Rgb WrongTracer::light_by_hemisphere(const SurfacePoint& x, const Frame& frame, const Rgb& brdf, Numbers& numbers) const {
+    const double up = numbers.next(), angle = 2.0 * pi * numbers.next(), radius = std::sqrt(1.0 - up * up);
+    const Vec3 w = frame.to_world({radius * std::cos(angle), radius * std::sin(angle), up});
+    SurfacePoint y;
+    if (!scene_.geometry.first_hit(x, w, y) || !scene_.emitters.is_emitter(y.shape) || glm::dot(y.normal, w) >= 0.0)
+        return Rgb(0.0);
+    return brdf * scene_.emitters.even_radiance(y.shape) * (2.0 * pi * up);
 }
 
 // Uniform by area on all lamps.

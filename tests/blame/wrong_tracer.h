@@ -44,11 +44,24 @@ std::string name(Bug bug);
 // The first bounce in blame_room() that is wrong; of `none`, the largest int.
 int first_wrong_bounce(Bug bug);
 
+// What a right tracer may do otherwise, at the same light.
+struct Sampling {
+    enum class Lamps {
+        asked,      // and hit by directions, by multiple importance sampling
+        hit,        // by directions that go on, alone
+        hemisphere  // by a direction of their own, uniform over the hemisphere: CS 184's -H
+    };
+    Lamps lamps = Lamps::asked;
+    bool roulette = true;
+    bool one_stream = false;  // every pixel has the same random numbers
+    bool stratified = false;  // the first numbers of a pixel's samples, each by Latin hypercube (McKay et al. 1979)
+};
+
 // For scenes of Diffuse, Conductor without Fresnel's reflectance, and Dielectric without factors, lit by surfaces that shine
 // evenly, on a film with a box filter. Throws std::invalid_argument where a walk meets another material.
 class WrongTracer {
 public:
-    WrongTracer(const Scene& scene, Bug bug);
+    WrongTracer(const Scene& scene, Bug bug, Sampling sampling = {});
 
     // S_0 … S_N: the pictures of bounces 0 … i, in radiance. Each is a render of its own with `samples` a pixel, independent of the
     // others; the same seed gives the same bits.
@@ -64,6 +77,7 @@ private:
     Image picture(int bounces, int samples, std::uint64_t seed) const;
     Rgb trace(Vec2 position, int bounces, Numbers& numbers) const;
     Rgb direct_light(const SurfacePoint& x, const Vec3& normal, const Rgb& brdf, Numbers& numbers) const;
+    Rgb light_by_hemisphere(const SurfacePoint& x, const Frame& frame, const Rgb& brdf, Numbers& numbers) const;
     SurfacePoint point_on_lamp(Numbers& numbers) const;
     double lamp_density(double distance2, double cosine) const;
     Rgb diffuse_brdf(const Rgb& albedo) const;
@@ -71,6 +85,7 @@ private:
 
     Scene scene_;
     Bug bug_;
+    Sampling sampling_;
     std::vector<LampFace> lamp_;
     double lamp_area_ = 0.0;
 };

@@ -19,11 +19,12 @@ MAPS = ("theirs", "ours", "difference", "difference_stderr", "z")
 class Blame:
     """What ``blame()`` finds.
 
-    right: whether no bounce differs. sentences: the verdict in words. counting: how depths were counted; counting_by_the_data: what the
+    verdict: "right", "wrong", or "unclear" where pictures are further apart than chance explains, but few samples or random numbers that
+    pixels share may be why. right: whether it is "right". sentences: the verdict in words. counting: how depths were counted; counting_by_the_data: what the
     data say, where that is something else. noise_known: whether a second set of pictures told their noise. samples: of ours, a pixel.
 
     terms: a Report for each bounce, or for bounces that one picture more holds together: first and last bounce; ratio of their mean to ours
-    and ratio_stderr; p, the probability of such a difference by chance; differs; worst, the blocks of pixels that differ most, each with a
+    and ratio_stderr; p, the probability of such a difference by chance; differs; unclear; worst, the blocks of pixels that differ most, each with a
     path of ours through it; and as arrays (height, width, 3), float32, W·m⁻²·sr⁻¹: theirs, ours, difference = theirs − ours, its
     standard errors difference_stderr, and z = difference / difference_stderr.
 
@@ -33,6 +34,7 @@ class Blame:
 
     def __init__(self, json: str, maps: List[Any]) -> None:
         data = _report.from_json(json)
+        self.verdict: str = data.verdict
         self.right: bool = data.right
         self.sentences: List[str] = data.sentences
         self.counting: str = data.counting
@@ -55,14 +57,14 @@ class Blame:
 
     def __repr__(self) -> str:
         wrong = self.first_wrong
-        said = "right" if wrong is None else f"wrong from bounce {wrong.first} on: {self.suspects[0].name}"
+        said = self.verdict if wrong is None else f"wrong from bounce {wrong.first} on: {self.suspects[0].name}"
         return f"<Blame of bounces 0 to {self.terms[-1].last}: {said}>"
 
     def _repr_html_(self) -> str:
         rows: List[List[Any]] = []
         for t in self.terms:
             bounces = str(t.first) if t.first == t.last else f"{t.first} to {t.last}"
-            rows.append([bounces, t.ratio, t.ratio_stderr, t.p, "differs" if t.differs else "agrees"])
+            rows.append([bounces, t.ratio, t.ratio_stderr, t.p, "differs" if t.differs else "unclear" if t.unclear else "agrees"])
         return as_table(["bounce", "theirs / ours", "±", "by chance", ""], rows, str(self))
 
 
