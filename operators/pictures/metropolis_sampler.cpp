@@ -59,23 +59,27 @@ SampleName MetropolisSampler::name(std::uint64_t replicate, std::uint32_t number
 void MetropolisSampler::sample_emission(std::uint64_t replicate, std::vector<Rgb>& picture, SampleRanges& ranges,
                                         Tally& tally) const {
     const std::size_t Q = settings_.quantities();
-    const std::uint32_t size = settings_.replicate_size, samples = pixels_ * size;
+    const std::uint32_t size = settings_.replicate_size, pixels_at_once = std::max(paths_at_once / size, 1u);
     oneapi::tbb::enumerable_thread_specific<Workspace> workspaces([&] { return Workspace(Q); });
-    oneapi::tbb::parallel_for(std::uint32_t{0}, (samples + paths_at_once - 1) / paths_at_once, [&](std::uint32_t group) {
+    // Whole pixels, so that each is added up by one thread and in order.
+    oneapi::tbb::parallel_for(std::uint32_t{0}, (pixels_ + pixels_at_once - 1) / pixels_at_once, [&](std::uint32_t group) {
         Workspace& work = workspaces.local();
-        const std::uint32_t first = group * paths_at_once, n = std::min(paths_at_once, samples - first);
-        trace_camera_rays(replicate, first, n, work.camera);
-        work.tally.rays[0] += n;
-        for (std::uint32_t i = 0; i < n; ++i) {
-            Rgb x = work.camera.emitted[i];
-            const std::uint32_t pixel = (first + i) / size;
-            if (!is_finite(x)) [[unlikely]] {
-                work.tally.keep({0, {pixel, name(replicate, first + i)}});
-                x = Rgb(0.0);
+        const std::uint32_t begin = group * pixels_at_once * size, end = std::min((group + 1) * pixels_at_once, pixels_) * size;
+        for (std::uint32_t first = begin; first < end; first += paths_at_once) {
+            const std::uint32_t n = std::min(paths_at_once, end - first);
+            trace_camera_rays(replicate, first, n, work.camera);
+            work.tally.rays[0] += n;
+            for (std::uint32_t i = 0; i < n; ++i) {
+                Rgb x = work.camera.emitted[i];
+                const std::uint32_t pixel = (first + i) / size;
+                if (!is_finite(x)) [[unlikely]] {
+                    work.tally.keep({0, {pixel, name(replicate, first + i)}});
+                    x = Rgb(0.0);
+                }
+                if (settings_.colors) x = *settings_.colors * x;
+                picture[pixel * Q] += x / static_cast<double>(size);
+                ranges.of[pixel * Q].add(x);
             }
-            if (settings_.colors) x = *settings_.colors * x;
-            picture[pixel * Q] += x / static_cast<double>(size);
-            ranges.of[pixel * Q].add(x);
         }
     });
     for (const Workspace& work : workspaces) tally.merge(work.tally);
