@@ -120,7 +120,7 @@ TEST(ChoiceSlow, ABiasIsTakenOnlyWhereItIsAllowed) {
     method::Auto open;
     Goal goal;
     goal.seed = fixed_seed;
-    goal.seconds = 300.0;  // pilots have a twentieth of it
+    goal.seconds = 900.0;  // pilots have a twentieth of it
     EXPECT_FALSE(is_biased(choose(open, scene, goal).method));
     open.bias_allowed = true;
     const MethodChoice found = choose(open, scene, goal);
