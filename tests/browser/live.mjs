@@ -28,8 +28,9 @@ const samples = () => page.evaluate(() => all[0].run.samples.per_pixel);
 const soFar = () => page.locator("#so-far").innerText();
 for (const key of ["ArrowRight", "ArrowRight", "s", "]"]) await page.keyboard.press(key);
 await page.evaluate(() => { set({ pixel: { x: 9, y: 20 } }); document.querySelector("#tables details").open = true; });
-const begun = await samples(), points = () => page.evaluate(() => errorPlot.data.datasets.find(s => s.label === "sum").data.length);
-const before = await page.evaluate(() => [...all[0].mean({ i: 3, sum: true })]);
+const points = () => page.evaluate(() => errorPlot.data.datasets.find(s => s.label === "sum").data.length);
+// Of one moment: the page goes on meanwhile.
+const [begun, before] = await page.evaluate(() => [all[0].run.samples.per_pixel, [...all[0].mean({ i: 3, sum: true })]]);
 await page.waitForFunction(n => all[0].run.samples.per_pixel >= 4 * n, begun, { timeout: 60000 });
 assert.match(await soFar(), /^So far [\d\s]+ samples a pixel, .* left\.$/);
 assert.ok(await points() >= 2);
