@@ -47,6 +47,9 @@ double Sensor::largest_response() const {
 }
 
 bool Sensor::can_be_joined() const {
+    // Of the directions around the sensor, it sees 1e-11.
+    constexpr double narrow = 1e-5;  // radians
+    if (std::holds_alternative<Perspective>(sensor_) && options_.fov < narrow) return false;
     if (const auto* distant = std::get_if<DistantSensor>(&sensor_)) return !distant->is_single_ray();
     const auto* batch = std::get_if<Batch>(&sensor_);
     return !batch || std::ranges::all_of(batch->sensors(), [](const Sensor& sensor) { return sensor.can_be_joined(); });

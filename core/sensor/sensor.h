@@ -44,7 +44,8 @@ public:
     const SensorOptions& options() const { return options_; }
     // Whether `lens` makes a difference.
     bool has_lens() const { return has_lens_; }
-    // Whether see() finds all points that rays of the sensor hit.
+    // Whether see() finds the points that rays of the sensor hit, among points on surfaces. Not those of a single ray, nor of a
+    // field of view as narrow as that of a `radiancemeter`, where none would lie.
     bool can_be_joined() const;
 
 private:

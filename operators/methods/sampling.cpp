@@ -62,9 +62,9 @@ SamplingSettings settings_of(const M& m, const Scene& scene) {
             fmt::format("--method {} cannot hide emitters, as the scene's integrator asks for; take --method walk", M::name));
     if (settings.generator == PathGenerator::light && !scene.camera.can_be_joined())
         throw InputError(
-            "--method light joins its paths to the sensor, and none meets the single ray of a 'distant' one with a point as "
-            "target; "
-            "take --method walk");
+            "--method light joins its paths to the sensor, and none meets a single ray, that of a 'radiancemeter' or of a "
+            "'distant' "
+            "sensor with a point as target; take --method walk");
     if constexpr (requires { m.direct; }) {
         expect_in_reach(m.direct, scene.emitters);
         settings.walk.direct = m.direct;

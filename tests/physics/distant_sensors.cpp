@@ -129,28 +129,41 @@ TEST(DistantSensorsSlow, AllMethodsAgree) {
                      0.01);
 }
 
-// A single ray: paths from the light cannot meet it; those from both ends do without. 2 methods of 3 bounces.
+// Perspective, and as narrow as a `radiancemeter`.
+SensorOptions spot(const Vec3& from, const Vec3& direction) {
+    const Frame frame(glm::normalize(direction));
+    SensorOptions camera;
+    camera.to_world = Mat4(glm::dvec4(frame.s, 0.0), glm::dvec4(frame.t, 0.0), glm::dvec4(frame.n, 0.0), glm::dvec4(from, 1.0));
+    camera.fov = 1e-6;
+    camera.near_clip = 1e-6;
+    return camera;
+}
+
+// A single ray: paths from the light cannot meet it; those from both ends do without. 2 sensors × 2 methods of 3 bounces.
 TEST(DistantSensorsSlow, APointIsOneRay) {
-    const Scene scene = seen_by(open_room(), looking({0, 0.2, -1}, Vec3(0.4, -0.3, 0)));
-    for (const Method& method : {Method(method::Bidirectional()), Method(method::Gather())}) {
-        const BounceSeries a = measure(scene, method::Walk(), 3, 1 << 14), b = measure(scene, method, 3, 1 << 14);
-        EXPECT_EQ(a.term(0).mean.at(0, 0), Rgb(0.0));
-        EXPECT_EQ(b.term(0).mean.at(0, 0), Rgb(0.0));
-        for (std::size_t i = 1; i <= 3; ++i) {
-            const MeanWithError &x = a.report.bounces[i].mean, &y = b.report.bounces[i].mean;
-            const double error = std::hypot(x.standard_error, y.standard_error);
-            EXPECT_LE(std::abs(x.mean - y.mean), 4.5 * error + (has_fields(method) ? 0.01 * x.mean : 0.0)) << name_of(method) << i;
-            EXPECT_LE(error, 0.03 * x.mean) << name_of(method) << i;
+    for (const SensorOptions& camera : {looking({0, 0.2, -1}, Vec3(0.4, -0.3, 0)), spot({0.4, -0.3, 0.5}, {0, 0.2, -1})}) {
+        const Scene scene = seen_by(open_room(), camera);
+        for (const Method& method : {Method(method::Bidirectional()), Method(method::Gather())}) {
+            const BounceSeries a = measure(scene, method::Walk(), 3, 1 << 14), b = measure(scene, method, 3, 1 << 14);
+            EXPECT_EQ(a.term(0).mean.at(0, 0), Rgb(0.0));
+            EXPECT_EQ(b.term(0).mean.at(0, 0), Rgb(0.0));
+            for (std::size_t i = 1; i <= 3; ++i) {
+                const MeanWithError &x = a.report.bounces[i].mean, &y = b.report.bounces[i].mean;
+                const double error = std::hypot(x.standard_error, y.standard_error);
+                EXPECT_LE(std::abs(x.mean - y.mean), 4.5 * error + (has_fields(method) ? 0.01 * x.mean : 0.0))
+                    << name_of(method) << i;
+                EXPECT_LE(error, 0.03 * x.mean) << name_of(method) << i;
+            }
         }
-    }
-    try {
-        measure(scene, method::Light(), 2, 64);
-        FAIL();
-    } catch (const InputError& e) {
-        EXPECT_STREQ(
-            e.what(),
-            "--method light joins its paths to the sensor, and none meets the single ray of a 'distant' one with a point as "
-            "target; take --method walk");
+        try {
+            measure(scene, method::Light(), 2, 64);
+            FAIL();
+        } catch (const InputError& e) {
+            EXPECT_STREQ(
+                e.what(),
+                "--method light joins its paths to the sensor, and none meets a single ray, that of a 'radiancemeter' or of a "
+                "'distant' sensor with a point as target; take --method walk");
+        }
     }
 }
 
