@@ -1,6 +1,7 @@
 // Smooth boundaries that let light through. A slab or a glass sphere under a sky of 1, with the unpolarised mean at each boundary:
 // K Le = R, K^i Le = (1 − R)² R^(i−2); all of the light comes back. Within a glass sphere the angle stays the same, and the camera
-// inside sees n² (1 − R) R^(i−1), or nothing beyond the critical angle.
+// inside sees n² (1 − R) R^(i−1), or nothing beyond the critical angle. Where the boundaries glow with e into the glass, K^i Le has
+// e (1 − R) R^(i−1) / n² more.
 #include "core/material/fresnel.h"
 #include "operators/known/groups.h"
 #include "operators/known/quadrature.h"
@@ -37,10 +38,11 @@ void fresnel(Figures& figures, std::uint64_t) {
                  0.596345759707712, 1e-11);
 }
 
-std::vector<double> from_outside(double R, int count) {
-    std::vector<double> terms{R};
-    while (static_cast<int>(terms.size()) < count)
-        terms.push_back((1.0 - R) * (1.0 - R) * std::pow(R, static_cast<double>(terms.size() - 1)));
+std::vector<double> from_outside(double R, int count, double glow = 0.0) {
+    std::vector<double> terms;
+    for (int i = 1; i <= count; ++i)
+        terms.push_back((i == 1 ? R : (1.0 - R) * (1.0 - R) * std::pow(R, i - 2)) +
+                        glow * (1.0 - R) * std::pow(R, i - 1) / (n * n));
     return terms;
 }
 
@@ -54,22 +56,25 @@ ProbeSettings probe_settings(double rarest, int bounces, std::uint64_t seed) {
             .seed = seed};
 }
 
-void slab(Figures& figures, std::uint64_t seed, Technique technique, double degrees, double R) {
+void slab(Figures& figures, std::uint64_t seed, Technique technique, double degrees, double R, double glow) {
     SceneMaker maker;
-    maker.add(parallelogram({-90, -90, 0.5}, {180, 0, 0}, {0, 180, 0}), glass());
-    maker.add(parallelogram({-90, -90, -0.5}, {0, 180, 0}, {180, 0, 0}), glass());
+    Surface inwards = boundary(Dielectric(1.0 / n), Dielectric(n));
+    inwards.emission = AreaLight(grey(glow));
+    for (const auto& side :
+         {parallelogram({-90, -90, 0.5}, {180, 0, 0}, {0, 180, 0}), parallelogram({-90, -90, -0.5}, {0, 180, 0}, {180, 0, 0})})
+        glow > 0.0 ? maker.add(flipped(side), inwards) : maker.add(side, glass());
     maker.parts.lights.environment = ConstantEnvironment(grey(1.0));
     const Scene scene = maker.make();
     const double theta = degrees * pi / 180.0;
     const StartPicker start = seen(scene, {0.01, 0.02, 3}, {std::sin(theta), 0, -std::cos(theta)});
     // The third term is rare at 60 degrees.
-    const std::vector<double> exact = from_outside(R, R > 0.1 ? 4 : 2);
-    figures.terms(
-        sharp_probe(scene, start, technique, probe_settings(std::min(R, exact.back()), static_cast<int>(exact.size()), seed)),
-        exact);
-    if (technique == Technique::pointwise) return;
+    const int terms = R > 0.1 ? 4 : 2;
+    const std::vector<double> exact = from_outside(R, terms, glow);
+    figures.terms(sharp_probe(scene, start, technique, probe_settings(std::min(R, from_outside(R, terms).back()), terms, seed)),
+                  exact);
+    if (technique == Technique::pointwise || glow > 0.0) return;
     const Estimates all = probe(scene, start, technique, {.samples = 64, .bounces = 60, .seed = seed});
-    figures.near("sum of K^i Le, i <= 60", all.reflected.mean.r, 1.0, 1e-12);
+    figures.near("sum of K^i Le, i <= 60", all.reflected.mean.r, 1.0 + glow / (n * n), 1e-12);
 }
 
 void sphere(Figures& figures, std::uint64_t seed, Technique technique) {
@@ -138,10 +143,14 @@ Cases glass_cases() {
     cases.push_back({"glass/fresnel", "Fresnel, Walsh's closed form", fresnel});
     for (const Technique technique : specular_techniques) {
         const std::string name = short_name(technique);
+        const auto of_slab = [technique](double degrees, double R, double glow) {
+            return [=](Figures& f, std::uint64_t seed) { slab(f, seed, technique, degrees, R, glow); };
+        };
         for (const auto& [degrees, R] : {reflected[2], reflected[3]})
             cases.push_back(
-                {fmt::format("glass/slab-{:g}/{}", degrees, name), "R, (1 - R)^2 R^(i-2): exact",
-                 [technique, degrees = degrees, R = R](Figures& f, std::uint64_t seed) { slab(f, seed, technique, degrees, R); }});
+                {fmt::format("glass/slab-{:g}/{}", degrees, name), "R, (1 - R)^2 R^(i-2): exact", of_slab(degrees, R, 0.0)});
+        cases.push_back({"glass/glowing-slab-80/" + name, "R, (1 - R)^2 R^(i-2), e (1 - R) R^(i-1)/n^2 more: exact",
+                         of_slab(80.0, reflected[3].second, 2.0)});
         cases.push_back({"glass/sphere/" + name, "R, (1 - R)^2 R^(i-2); inside n^2 (1 - R) R^(i-1): exact",
                          [technique](Figures& f, std::uint64_t seed) { sphere(f, seed, technique); }});
         cases.push_back(

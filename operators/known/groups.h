@@ -13,8 +13,9 @@ Cases direct_light_cases();  // form factors in closed form
 Cases cube_cases();
 Cases mirror_cases();
 Cases glass_cases();
-Cases open_cases();    // scenes that light leaves
-Cases series_cases();  // bounds on the series, and series that mislead them
+Cases glowing_cases();  // mirrors and sheets that emit, by every method
+Cases open_cases();     // scenes that light leaves
+Cases series_cases();   // bounds on the series, and series that mislead them
 Cases spectrum_cases();
 Cases acceleration_cases();  // the number of applications of K that solvers need
 Cases rounding_cases();

@@ -104,22 +104,26 @@ void go_round(Figures& figures, Technique technique, std::uint64_t seed) {
         [](int i) { return i % 3 == 0 ? std::pow(mirror_rho, i) : 0.0; }, 8 * 36 * std::numeric_limits<double>::epsilon());
 }
 
-// m mirrors at 45° in a zigzag, and a lamp behind the last one: the only term is K^m Le = ρ^m Le.
-void look_round_corners(Figures& figures, Technique technique, std::uint64_t seed, int m) {
+// m mirrors at 45° in a zigzag, and a lamp behind the last one: the only term is K^m Le = ρ^m Le, and those before it are
+// K^i Le = ρ^i e where the mirrors glow.
+void look_round_corners(Figures& figures, Technique technique, std::uint64_t seed, int m, double glow) {
     SceneMaker maker;
     // Light is followed along +x into the first mirror, up to the second, along +x, …
     Vec3 at(0.0), along(1, 0, 0), across(0, 0, 1);
     for (int k = 0; k < m; ++k) {
-        maker.add(patch(at, glm::normalize(across - along), 0.3), made_of(mirror()));
+        maker.add(patch(at, glm::normalize(across - along), 0.3),
+                  made_of(mirror(), glow > 0.0 ? std::optional<AreaLight>(grey(glow)) : std::nullopt));
         std::swap(along, across);
         at += along;
     }
     maker.add(patch(at, -along, 0.2), lamp(2.0));
     const Scene scene = maker.make();
     const Estimates found = probe(scene, seen(scene, {-1, 0.01, 0.02}, {1, 0, 0}), technique, probe_settings(technique, 8, seed));
-    for (int i = 0; i <= 8; ++i)
-        figures.near(fmt::format("K^{} Le", i), found.terms.at(static_cast<std::size_t>(i)).mean.r,
-                     i == m ? 2.0 * std::pow(mirror_rho, m) : 0.0, i == m ? 64.0 * std::numeric_limits<double>::epsilon() : 0.0);
+    for (int i = 0; i <= 8; ++i) {
+        const double seen = i < m ? glow : i == m ? 2.0 : 0.0;
+        figures.near(fmt::format("K^{} Le", i), found.terms.at(static_cast<std::size_t>(i)).mean.r, seen * std::pow(mirror_rho, i),
+                     seen > 0.0 ? 64.0 * std::numeric_limits<double>::epsilon() : 0.0);
+    }
 }
 
 // Retroreflectors: K = ρ T, so that K² = ρ² I shows T² = I, wherever and along whatever direction.
@@ -181,7 +185,9 @@ Cases mirror_cases() {
                          [technique](Figures& f, std::uint64_t seed) { go_round(f, technique, seed); }});
         for (const int m : {1, 5})
             cases.push_back({fmt::format("mirrors/periscope-{}/{}", m, name), "rho^m Le at bounce m, else 0: exact",
-                             [=](Figures& f, std::uint64_t seed) { look_round_corners(f, technique, seed, m); }});
+                             [=](Figures& f, std::uint64_t seed) { look_round_corners(f, technique, seed, m, 0.0); }});
+        cases.push_back({"mirrors/glowing-periscope/" + name, "rho^i e, and rho^m Le at bounce m: exact",
+                         [=](Figures& f, std::uint64_t seed) { look_round_corners(f, technique, seed, 5, 0.7); }});
         cases.push_back({"mirrors/retroreflectors/" + name, "K^2 = rho^2 I: exact",
                          [technique](Figures& f, std::uint64_t seed) { go_back(f, technique, seed); }});
     }
