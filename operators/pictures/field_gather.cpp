@@ -92,12 +92,11 @@ void FieldGather::choose_directions(std::vector<PixelRay>& seen, std::uint32_t r
 // At the end of a ray: adds what it brings, or makes it start there.
 void FieldGather::read_or_go_on(PixelRay& l, const FieldPair& fields, bool compares, std::vector<double>& arriving) const {
     // The direct light at other first vertices is already sampled (bounce 1).
-    if (const Rgb emitted = (l.links > 0 || l.takes_all) && !leaves_out_links(l, fields)
-                                ? scene_.emitters.emitted(l.y, -l.wi)
-                                : Rgb(0.0);
+    if (const Rgb emitted =
+            (l.links > 0 || l.takes_all) && !leaves_out_links(l, fields) ? scene_.emitters.emitted(l.y, -l.wi) : Rgb(0.0);
         !is_black(emitted)) {
         const double weight = l.pdf == delta_pdf ? 1.0 : power_heuristic(l.pdf, lights_.pdf(l.x.position, l.wi, l.y));
-        l.sample->add(lights_.bounce_of(l), l.through * emitted * weight);
+        l.sample->add(lights_.bounce_of(l), l.through * emitted * (weight / (l.index_beyond * l.index_beyond)));
     }
     if (l.y.is_infinite()) return;
     const PatchSpace& space = fields.fine.space();
@@ -108,6 +107,7 @@ void FieldGather::read_or_go_on(PixelRay& l, const FieldPair& fields, bool compa
         l.x = l.y;
         l.wo = -l.wi;
         l.bsdf = bsdf;
+        l.index = l.index_beyond;
         ++l.links;
         l.goes_on = true;
         return;

@@ -46,7 +46,7 @@ std::uint64_t PixelLights::find_at_links(std::span<PixelRay* const> rays) const 
     if (lights_.empty()) return 0;
     std::vector<PixelRay*> asking;
     for (PixelRay* l : rays)
-        if (ask(*l, *l->sample->gather_sampler, l->through, true)) asking.push_back(l);
+        if (ask(*l, *l->sample->gather_sampler, l->through / (l->index * l->index), true)) asking.push_back(l);
     add_visible(asking);
     return asking.size();
 }
@@ -96,8 +96,9 @@ std::uint64_t PixelLights::find_by_chance(std::span<PixelRay> rays) const {
             const PixelRay& l = *asking[i];
             const Rgb emitted = emitters.emitted(l.y, -l.wi);
             if (is_black(emitted)) return;
-            l.sample->add(1,
-                          l.weight * emitted * (l.sample->weight * power_heuristic(l.pdf, lights_.pdf(l.x.position, l.wi, l.y))));
+            l.sample->add(1, l.weight * emitted *
+                                 (l.sample->weight * power_heuristic(l.pdf, lights_.pdf(l.x.position, l.wi, l.y)) /
+                                  (l.index_beyond * l.index_beyond)));
         });
     return asking.size();
 }

@@ -39,6 +39,8 @@ struct PixelRay {
     bool diffuse;
     Rgb weight;
     double pdf;
+    // Where wo and wi lead: `through` and `weight` are of basic radiance L/n², and lights have radiance.
+    double index = 1.0, index_beyond = 1.0;
     // For a gather ray: its throughput, and the number of links (operators/matrix/links.h): of mirrors and other sides from which
     // it went on.
     Rgb through;
@@ -66,6 +68,7 @@ struct PixelRay {
         wi = sampled.wi;
         weight = sampled.weight;
         pdf = sampled.pdf;
+        index_beyond = index * sampled.index;
     }
     // Takes the directions of a material that has two at most: the first itself, and the second by a copy in `others`.
     bool take_all(const Materials& materials, std::vector<PixelRay>& others) {
