@@ -55,7 +55,7 @@ private:
 
     Look look_of(const std::string& method, std::size_t look) const {
         const auto index = static_cast<std::uint64_t>(std::ranges::find(trial_.methods, method) - trial_.methods.begin());
-        return {look, trial_.seed * 1000 + look * 100 + index, trial_.thorough};
+        return {look, trial_.seed * 1000 + look * 100 + index, trial_.thorough || look > trial_.first_look};
     }
 
     void say(const nlohmann::ordered_json& line) {
