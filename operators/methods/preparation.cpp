@@ -52,7 +52,7 @@ double rays_of(const method::Corrected& corrected, const Count& count) {
 template <HasFields M>
 double rays_of(const M&, const Count& count) {
     const FieldSettings first = first_of_search(FieldSettings(), FieldSettings());
-    return first.replicates * (double{first.rays} + first.light_samples) *
+    return static_cast<double>(first.replicates) * (static_cast<double>(first.rays) + first.light_samples) *
            facets_of(count, static_cast<double>(first.patching.patches));
 }
 template <class M>

@@ -33,6 +33,12 @@ bool samples_have_no_bound(PathGenerator generator, std::size_t q) {
     return generator == PathGenerator::light || (generator == PathGenerator::photon && q > 1);
 }
 
+// Whether a point on a light, or on a surface, brings the more the nearer it is, for directions do not share its weight.
+bool near_lights_have_no_bound(const SamplingSettings& settings) {
+    const DirectLight direct = settings.walk.direct.direct;
+    return direct != DirectLight::bsdf && direct != DirectLight::mis;
+}
+
 // Upper bounds of what is measured of K^i Le, for each bounce, and of the rest, per channel.
 std::vector<Rgb> bounds(const Scene& scene, const SamplingSettings& settings) {
     const Rgb albedo = scene.materials.largest_albedo(),
@@ -65,6 +71,7 @@ public:
     Look(const Scene& scene, const SamplingSettings& settings, const SampleRanges& ranges, const SeriesMoments::Result& result)
         : scene_(&scene),
           generator_(settings.generator),
+          near_lights_have_no_bound_(near_lights_have_no_bound(settings)),
           has_chains_(has_chains(settings)),
           result_(&result),
           ranges_(&ranges),
@@ -200,7 +207,7 @@ private:
         Rgb brought(0.0);
         for (int c = 0; c < 3; ++c) {
             if (bounds_[q][c] == 0.0) continue;
-            double sample = largest_[c] > 0.0 ? largest_[c] : bounds_[q][c];
+            double sample = largest_[c] > 0.0 ? largest_[c] : near_lights_have_no_bound_ ? infinity : bounds_[q][c];
             if (roulette_.kind == Roulette::Kind::fixed)
                 sample = is_rest ? infinity : sample / std::pow(roulette_.survival, static_cast<double>(q));
             else if (is_rest && largest_[c] > 0.0)
@@ -214,6 +221,7 @@ private:
         met_ = Rgb(0.0);
         for (std::size_t pixel = 0; pixel < result_->pixels(); ++pixel)
             for (int c = 0; c < 3; ++c) met_[c] = std::max(met_[c], double{range(pixel, q).largest[c]});
+        if (q == 0 && near_lights_have_no_bound_) return;
         for (int c = 0; c < 3; ++c)
             if (met_[c] > 0.0) largest_[c] = met_[c];
     }
@@ -249,6 +257,7 @@ private:
 
     const Scene* scene_;
     PathGenerator generator_;
+    bool near_lights_have_no_bound_;
     bool has_chains_;
     const SeriesMoments::Result* result_;
     const SampleRanges* ranges_;

@@ -7,7 +7,8 @@
 //
 // with n samples per pixel, t of the 95% interval, and D the largest minus the smallest sample of the pixel and its eight
 // neighbours. If these are all 0 but light may be there, D is the largest sample of this bounce in the picture; failing that, of an
-// earlier bounce, or ‖Le‖∞ a^i, more for who survives roulette, or no bound at all (what a path of `light` or a photon brings).
+// earlier bounce, or ‖Le‖∞ a^i, more for who survives roulette, or no bound at all (what a path of `light` or a photon brings; and a
+// point on a light whose weight directions do not share, if no earlier bounce but Le has met anything).
 // h ≤ ‖K^i Le‖∞ ≤ ‖Le‖∞ a^i, where a is the largest albedo. The bound is 0 where it is known that nothing is there: channels without
 // light or albedo, bounces that the plan proves empty, and pixels around which no ray meets a reflecting surface.
 #pragma once

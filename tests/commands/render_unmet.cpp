@@ -91,6 +91,22 @@ TEST_F(RenderUnmet, ABounceThatNoSampleMetHasAnUpperBound) {
     EXPECT_GE(run.at("sum").at("interval95").get<double>(), 0.5 * at_most);
 }
 
+// A point on a lamp that is as near as one likes brings any weight where directions do not share it: what is left is a ‖Le‖∞ in one
+// of three channels, wherever the floor is seen, which is in more than half of the picture.
+TEST_F(RenderUnmet, PointsOnLightsHaveNoBoundButThatOfTheBounce) {
+    write("scene.xml", hidden_lamp(5.0));
+    for (const std::vector<std::string>& method : std::vector<std::vector<std::string>>{
+             {"--direct", "light"}, {"--direct", "surfaces"}, {"--method", "surface"}, {"--method", "classic"}}) {
+        std::vector<std::string> arguments{"-n", "1", "--spp", "16", "--plan", "full"};
+        arguments.insert(arguments.end(), method.begin(), method.end());
+        render("scene.xml", method.back(), arguments);
+        const nlohmann::json bounce = run_json(method.back()).at("bounces")[1];
+        EXPECT_GT(bounce.at("interval95").get<double>(), 0.5 * 0.5 * 4.0 / 3.0) << method.back();
+        EXPECT_LT(bounce.at("interval95").get<double>(), 0.5 * 4.0 / 3.0) << method.back();
+        EXPECT_TRUE(bounce.contains("unmet")) << method.back();
+    }
+}
+
 // Black surfaces bring nothing, and no bound.
 TEST_F(RenderUnmet, BlackStaysBlack) {
     const Finished done = render_hidden(hidden_lamp(5.0, "0"), "a");

@@ -24,7 +24,7 @@ namespace {
 constexpr std::array<double, looks> unlikely{1e-4, 1e-6, 4e-8};
 // What is missing of rare paths comes with more samples; what is wrong stays.
 constexpr double part_that_stays = 0.5;
-constexpr std::array<unsigned, looks> seconds_of_method{60, 180, 300};
+constexpr std::array<unsigned, looks> seconds_of_method{120, 240, 360};
 
 class Examination {
 public:
