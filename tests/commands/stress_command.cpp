@@ -56,7 +56,8 @@ TEST_F(StressCommand, RefusesAPatternThatFitsNothing) {
     EXPECT_EQ(done.err,
               "--only cubes: no case has such a name; there are the groups furnace, microfacets, sphere, two-patches, "
               "direct-light, cube, "
-              "mirrors, glass, open, series, spectrum, acceleration, rounding, monte-carlo, stiff, extreme, and --list shows all "
+              "mirrors, glass, glowing, open, series, spectrum, acceleration, rounding, monte-carlo, stiff, extreme, and --list "
+              "shows all "
               "names\n");
 }
 
