@@ -117,13 +117,6 @@ std::array<double, 2> exact(const Sheet& sheet, const Vec3& p, Finds finds) {
     return {floor_rho * terms[0], floor_rho * terms[1]};
 }
 
-double mean_of_pixels(const Image& image) {
-    double sum = 0.0;
-    if (image.pixels.empty()) return sum;
-    for (const Rgb& x : image.pixels) sum += (x.r + x.g + x.b) / 3.0;
-    return sum / static_cast<double>(image.pixels.size());
-}
-
 struct Look {
     Method method;
     std::uint64_t samples;
@@ -144,8 +137,9 @@ void floor_below(Figures& figures, std::uint64_t seed, const Sheet& sheet, const
         }
     const BounceSeries found = render(scene, look.method, {.bounces = 2, .samples = look.samples, .replicates = 16, .seed = seed});
     for (std::size_t i = 1; i <= 2; ++i) {
-        const MeanWithError mean = found.report.bounces[i].mean;
-        const double bias = mean_of_pixels(found.term(i).discretisation);
+        const BounceReport& bounce = found.report.bounces[i];
+        const MeanWithError& mean = bounce.mean;
+        const double bias = bounce.discretisation ? bounce.discretisation->mean : 0.0;
         figures.near(fmt::format("K^{} Le", i), mean.mean, terms[i - 1],
                      student_t_quantile(1.0 - 6.8e-6, mean.degrees_of_freedom) * mean.standard_error + bias + 1e-6);
         figures.at_most("  standard error and bias, relative", (mean.standard_error + bias) / mean.mean, look.error);

@@ -63,8 +63,7 @@ SamplingSettings settings_of(const M& m, const Scene& scene) {
     if (settings.generator == PathGenerator::light && !scene.camera.can_be_joined())
         throw InputError(
             "--method light joins its paths to the sensor, and none meets a single ray, that of a 'radiancemeter' or of a "
-            "'distant' "
-            "sensor with a point as target; take --method walk");
+            "'distant' sensor with a point as target; take --method walk");
     if constexpr (requires { m.direct; }) {
         expect_in_reach(m.direct, scene.emitters);
         settings.walk.direct = m.direct;
