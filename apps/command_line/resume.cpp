@@ -2,6 +2,7 @@
 
 #include "apps/command_line/commands.h"
 #include "apps/commands/render_command.h"
+#include "apps/files/json_text.h"
 #include "apps/files/saved_render.h"
 #include "core/base/error.h"
 
@@ -43,7 +44,7 @@ std::vector<std::string> as_arguments(const Json& options) {
                 if (value != "true") arguments.push_back(value);
             }
         } else {
-            arguments.push_back(values.at(0));
+            arguments.push_back(file_named_in_json(values.at(0)));
         }
     }
     return arguments;

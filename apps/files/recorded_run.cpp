@@ -1,5 +1,6 @@
 #include "apps/files/recorded_run.h"
 
+#include "apps/files/json_text.h"
 #include "apps/files/method_json.h"
 #include "core/base/error.h"
 #include "core/base/input_file.h"
@@ -23,7 +24,7 @@ RecordedRun recorded_run(const Json& json, const std::string& folder) {
     render.method = method_from_json(options);
     if (const std::string why = why_no_replay(render.method); !why.empty())
         throw InputError(fmt::format("{}: --method {} has no paths to replay: {}", folder, name_of(render.method), why));
-    run.scene = json.at("scene").at("file");
+    run.scene = file_named_in_json(json.at("scene").at("file"));
     json.at("scene").at("definitions").get_to(run.definitions);
     run.lenient = json.at("scene").contains("replaced");
     run.hash = json.at("scene").at("hash");

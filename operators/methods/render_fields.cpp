@@ -7,6 +7,7 @@
 #include "operators/methods/preparation.h"
 #include "operators/methods/render_job.h"
 #include "operators/pictures/field_goal.h"
+#include "operators/pictures/unmet_by_fields.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -102,6 +103,7 @@ BounceSeries as_series(const std::shared_ptr<const FieldPictures>& pictures, con
         series.limit = [pictures] { return pictures->sum(pictures->bounces() + 1); };
     }
     series.report = report_series(scene, *pictures, run.discretisation);
+    if (!pictures->importance) report_unmet(series.report, scene, *pictures, run.settings);
     series.convergence = run.convergence;
     series.outcome = run.outcome;
     series.samples = pictures->samples;

@@ -28,6 +28,11 @@ TEST_F(NamesOfBytes, Renders) {
     EXPECT_EQ(run({"page", out, "--quiet"}).exit_code, 0);
     expect_json({"compare", out, out});
     EXPECT_EQ(run({"merge", out, "-o", "gesamt\xfc"}).exit_code, run({"merge", out, "-o", "all"}).exit_code);
+    // The scene is found again, by the bytes that it is named with.
+    expect_json({"replay", out, "--pixel", "0,0", "--sample", "1"});
+    const Finished resumed = run({"render", "--resume", out, "--spp", "8"});
+    EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
+    EXPECT_EQ(run_json(out).at("samples").at("per_pixel"), 8);
 }
 
 TEST_F(NamesOfBytes, OtherCommands) {

@@ -107,6 +107,32 @@ TEST_F(RenderUnmet, PointsOnLightsHaveNoBoundButThatOfTheBounce) {
     }
 }
 
+// Up to 3/n of the rays and of the light samples of a side could have met the lamp, and the floor is seen in two thirds of the
+// picture. By links, what a path brings has no bound but that of the bounce.
+TEST_F(RenderUnmet, FieldsHaveABoundOnWhatTheyMissed) {
+    write("scene.xml", hidden_lamp(5.0));
+    std::string with_mirror = hidden_lamp(5.0);
+    with_mirror.insert(with_mirror.rfind("</scene>"), R"(<shape type="sphere"><float name="radius" value="0.1"/>
+<point name="center" x="0" y="0" z="-1"/><bsdf type="conductor"/></shape>)");
+    write("mirror.xml", with_mirror);
+    write("black.xml", hidden_lamp(5.0, "0"));
+    for (const std::string method : {"matrix", "gather", "patches"}) {
+        const auto bounce = [&](const std::string& scene) {
+            const std::string output = method + "-" + scene;
+            render(scene + ".xml", output,
+                   {"-n", "2", "--spp", "16", "--patches", "100", "--directions", "64", "--method", method, "--quiet"});
+            return run_json(output).at("bounces")[1];
+        };
+        const double all = 0.5 * 4.0 / 3.0 * 2.0 / 3.0;
+        EXPECT_TRUE(bounce("scene").contains("unmet")) << method;
+        const double of_rays = -std::log(0.05) / 64.0 * all;
+        EXPECT_NEAR(bounce("scene").at("interval95").get<double>(), of_rays, 0.1 * of_rays) << method;
+        EXPECT_NEAR(bounce("mirror").at("interval95").get<double>(), all / 0.5, 0.1 * all) << method << ": a mirror reflects all";
+        EXPECT_EQ(bounce("black").at("interval95"), 0.0) << method;
+        EXPECT_FALSE(bounce("black").contains("unmet")) << method;
+    }
+}
+
 // Black surfaces bring nothing, and no bound.
 TEST_F(RenderUnmet, BlackStaysBlack) {
     const Finished done = render_hidden(hidden_lamp(5.0, "0"), "a");

@@ -2,6 +2,7 @@
 
 import importlib.util
 import json
+import os
 import sys
 import types
 import unittest
@@ -46,6 +47,14 @@ class Bounces(Case):
         row = rows[rows["picture"] == "bounce_002"][0]
         for name in ("rmse", "rel_mse", "mean_difference", "mean_difference_interval95"):
             self.assertEqual(found[name], row[name])
+
+    def test_names_of_bytes(self):
+        folder = self.folder / os.fsdecode(b"m\xfcll")
+        a = render(1)
+        a.save(folder)
+        there = neumann.read(folder)
+        np.testing.assert_array_equal(there[1].value, a[1].value)
+        self.assertEqual(neumann.compare(folder / "bounce_001.exr", a[1])["rmse"], 0)
 
     def test_flip(self):
         a, b = render(1), render(2)

@@ -1,7 +1,7 @@
 """A rendered series: its bounces, sums and rest."""
 
 from functools import cached_property
-from os import PathLike, fspath
+from os import PathLike, fsencode, fspath
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, List, NamedTuple, Optional, Sequence, Tuple, Union, overload
 
@@ -207,7 +207,7 @@ class BounceSeries:
 
         Raises InputError where nothing can be written there, and RunError where a disk is full. Whole or not at all.
         """
-        self._source.save(fspath(folder), files)
+        self._source.save(fsencode(folder), files)
 
     def show(self, bounce: Optional[int] = None) -> None:
         """Shows a bounce, or all of them with their sums: below the cell of a notebook, elsewhere in the browser."""

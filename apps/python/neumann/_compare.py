@@ -1,6 +1,6 @@
 """How far pictures and series are from others."""
 
-from os import PathLike, fspath
+from os import PathLike, fsencode
 from pathlib import Path
 from typing import Any, Optional, Union
 
@@ -17,7 +17,7 @@ from ._sources import Pictures
 def _picture(x: "Comparable") -> Optional[Pictures]:
     """A picture with its errors, from memory or a file; None of a series."""
     if isinstance(x, (str, PathLike)):
-        return None if Path(x).is_dir() else _neumann.read(fspath(x))
+        return None if Path(x).is_dir() else _neumann.read(fsencode(x))
     if isinstance(x, Bounce):
         return x._pictures
     return None if isinstance(x, BounceSeries) else (real(x, "a picture", finite=False), None, None, None, None)

@@ -1,5 +1,6 @@
 """Where a series' pictures come from: memory, or the folder of a render."""
 
+from os import fsencode
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any, List, Optional, Protocol, Sequence, Tuple
@@ -26,7 +27,7 @@ class Source(Protocol):
     def run(self) -> str: ...
     def warnings(self) -> List[str]: ...
     def ways(self) -> Any: ...
-    def save(self, folder: str, files: Optional[Sequence[str]]) -> None: ...
+    def save(self, folder: bytes, files: Optional[Sequence[str]]) -> None: ...
     def page(self) -> str: ...
 
 
@@ -48,12 +49,12 @@ class Memory:
     def ways(self) -> Any:
         return self.rendering.ways()
 
-    def save(self, folder: str, files: Optional[Sequence[str]]) -> None:
+    def save(self, folder: bytes, files: Optional[Sequence[str]]) -> None:
         run_job(self.rendering.save(folder) if files is None else self.rendering.save(folder, list(files)))
 
     def page(self) -> str:
         with TemporaryDirectory() as folder:
-            self.save(folder, ["page"])
+            self.save(fsencode(folder), ["page"])
             return (Path(folder) / "index.html").read_text(encoding="utf-8")
 
 
@@ -68,11 +69,11 @@ class Folder:
         return (self._folder / name).read_text(encoding="utf-8")
 
     def picture(self, kind: str, bounce: int) -> Pictures:
-        return _neumann.read(str(self._folder / f"{kind}_{bounce:03}.exr"))
+        return _neumann.read(fsencode(self._folder / f"{kind}_{bounce:03}.exr"))
 
     def rest(self) -> Optional[Pictures]:
         path = self._folder / "rest.exr"
-        return _neumann.read(str(path)) if path.exists() else None
+        return _neumann.read(fsencode(path)) if path.exists() else None
 
     def table(self) -> str:
         return self._text("series.csv")
@@ -91,10 +92,10 @@ class Folder:
         for path in self._folder.glob("way_s*_t*_unweighted.exr"):
             name = path.name[: -len("_unweighted.exr")]
             s, t = (int(part[1:]) for part in name.split("_")[1:])
-            found.append((s, t, _neumann.read(str(self._folder / f"{name}.exr"))[0], _neumann.read(str(path))[0]))
+            found.append((s, t, _neumann.read(fsencode(self._folder / f"{name}.exr"))[0], _neumann.read(fsencode(path))[0]))
         return sorted(found, key=lambda way: way[:2]) or None
 
-    def save(self, folder: str, files: Optional[Sequence[str]]) -> None:
+    def save(self, folder: bytes, files: Optional[Sequence[str]]) -> None:
         raise _neumann.InputError(f"{self._folder}: was read from there; copy the folder")
 
     def page(self) -> str:
