@@ -65,6 +65,13 @@ bool has_chains(const SamplingSettings& settings) {
            (settings.mixture && settings.mixture->has(PathGenerator::metropolis));
 }
 
+// Whether a pixel's value is a sum of events, none of which is negative; shared points and other colours have negative ones, and
+// photons and records (q > 1) are means of many.
+bool has_events(const SamplingSettings& settings) {
+    return !settings.colors && settings.generator != PathGenerator::corrected && !has_two_radii(settings.generator) &&
+           !(settings.mixture && settings.mixture->has(PathGenerator::corrected));
+}
+
 // Computes the bounds of one series, quantity by quantity.
 class Look {
 public:
@@ -73,6 +80,7 @@ public:
           generator_(settings.generator),
           near_lights_have_no_bound_(near_lights_have_no_bound(settings)),
           has_chains_(has_chains(settings)),
+          has_events_(has_events(settings)),
           result_(&result),
           ranges_(&ranges),
           quantities_(result.quantities()),
@@ -102,7 +110,7 @@ public:
         oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::size_t>(0, pixels, 1024), [&](const auto& range) {
             for (std::size_t pixel = range.begin(); pixel < range.end(); ++pixel) {
                 const Rgb nearby = difference_nearby(pixel, q);
-                const Rgb weight = weight_nearby(term, pixel, in_picture);
+                const Rgb weight = has_events_ && q > 0 ? weight_nearby(term, pixel, in_picture) : Rgb(0.0);
                 const double part = part_of_samples(pixel);
                 for (int c = 0; c < 3; ++c) {
                     const double mean = term.mean.pixels[pixel][c], error = term.standard_error.pixels[pixel][c];
@@ -172,10 +180,10 @@ private:
         }
         return weight;
     }
+    // Paths that bring much are events, too, such as those that come to a small lamp by a mirror.
     Rgb weight_nearby(const Estimate& term, std::size_t pixel, const Rgb& in_picture) const {
         Rgb weight(0.0);
         for (int c = 0; c < 3; ++c) {
-            if (in_picture[c] == 0.0) continue;
             Events nearby;
             for_neighbourhood(result_->width(), result_->height(), pixel, [&](std::size_t other) { add(term, other, c, nearby); });
             weight[c] = nearby.and_one_of(in_picture[c]).weight();
@@ -258,7 +266,7 @@ private:
     const Scene* scene_;
     PathGenerator generator_;
     bool near_lights_have_no_bound_;
-    bool has_chains_;
+    bool has_chains_, has_events_;
     const SeriesMoments::Result* result_;
     const SampleRanges* ranges_;
     std::size_t quantities_, stride_;

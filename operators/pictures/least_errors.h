@@ -3,7 +3,8 @@
 //
 //     h/t,  h as one sample more or less leaves open (one_sample_more.h); where replicates do not agree, not in bounces from 2 on by
 //           photons and records, whose samples are means of many
-//           h as few events leave open (few_events.h), if that is more, in bounces by chains: a chain's stay is an event
+//           h as few events leave open (few_events.h), if that is more, where no sample is negative: a path that brings much is an
+//           event, and so is a chain's stay
 //
 // with n samples per pixel, t of the 95% interval, and D the largest minus the smallest sample of the pixel and its eight
 // neighbours. If these are all 0 but light may be there, D is the largest sample of this bounce in the picture; failing that, of an

@@ -7,6 +7,7 @@
 // nothing; coverage is 94% to 96% there, so that intervals that are right fail with a probability below 1e-10. Where nearly all
 // pixels are slivers, more than that must hold the truth: 60% of them have nothing but an upper bound, which is to hold, too.
 #include "core/image/pixel_estimate.h"
+#include "core/reader/read_scene.h"
 #include "operators/known/scene_maker.h"
 #include "operators/pictures/least_errors.h"
 #include "operators/statistics/student_t.h"
@@ -173,6 +174,33 @@ TEST(PixelCoverageSlow, OfASliver) {
         EXPECT_GE(c.rate(), 0.95);
         EXPECT_GT(static_cast<double>(c.zeros), 0.5 * static_cast<double>(c.of)) << "a sliver that is mostly missed";
         EXPECT_LE(static_cast<double>(c.zeros_missed), 0.05 * static_cast<double>(c.of));
+    }
+}
+
+// Paths that come to the lamp by several mirrors bring much and are rare: a pixel that has met few of them is more often too dark
+// than too bright, and its spread is too small with it, so that 89 to 92% of the intervals held by the spread alone. The truth is a
+// walk of 256 times as many samples, whose error is a sixteenth.
+TEST(PixelCoverageSlow, WherePathsThatBringMuchAreRare) {
+    const Scene scene = read_scene(SCENES "/metal-room/metal-room.xml", {{"res", "24"}});
+    SamplingSettings settings{.walk = {.bounces = 4, .rest_probability = 0.0}, .seed = 777};
+    const auto truth = render_series(scene, settings, {4096, std::nullopt, std::nullopt}).moments.result();
+    for (std::size_t bounce = 2; bounce <= 4; ++bounce) {
+        const Estimate exact = truth.term(bounce);
+        std::uint64_t of = 0, held = 0;
+        for (settings.seed = 1; settings.seed <= 24; ++settings.seed) {
+            const Rendered rendered = render_bounce(scene, settings, 16, bounce);
+            const Image errors = rendered.term.pixel_errors();
+            for (std::size_t i = 0; i < exact.mean.pixels.size(); ++i)
+                for (int c = 0; c < 3; ++c) {
+                    const double off = std::abs(rendered.term.mean.pixels[i][c] - exact.mean.pixels[i][c]);
+                    ++of;
+                    held += off <= std::hypot(rendered.t * errors.pixels[i][c], 2.0 * exact.standard_error.pixels[i][c]);
+                }
+        }
+        const double rate = static_cast<double>(held) / static_cast<double>(of);
+        std::printf("metal-room, bounce %zu: %.2f%% of %llu\n", bounce, 100.0 * rate, static_cast<unsigned long long>(of));
+        EXPECT_GE(rate, 0.92) << bounce;
+        EXPECT_LE(rate, 0.995) << bounce;
     }
 }
 
