@@ -4,7 +4,7 @@
 #include "operators/matrix/chains.h"
 #include "operators/matrix/light_vector.h"
 #include "operators/matrix/link_light.h"
-#include "operators/matrix/reflection_matrix.h"
+#include "operators/matrix/scene_reflection.h"
 #include "operators/matrix/series_rest.h"
 #include "operators/matrix/sides.h"
 #include "operators/matrix/transport_matrix.h"
@@ -206,8 +206,8 @@ void add_up(const RowShare& rows, std::vector<PowerOfTerm>& power) {
 }
 
 template <int C>
-TracedSeries trace_light(const Scene& scene, const RowShare& rows, const PatchSpace& coarser, const TracedSeriesSettings& settings,
-                         const Watch& watch) {
+TracedSeries trace_light(const Scene& scene, const RowShare& rows, const PatchSpace& coarser, const ReflectionMatrix<C>& R,
+                         const TracedSeriesSettings& settings, const Watch& watch) {
     const PatchSpace& space = rows.space();
     Chains chains(scene, space, settings.rays, settings.seed, settings.bounces);
     std::function<void(const BlindRay&)> go_on;
@@ -216,7 +216,6 @@ TracedSeries trace_light(const Scene& scene, const RowShare& rows, const PatchSp
     const std::size_t table_rays = RayTable::size(space, settings.rays);
     chains.finish();
     const int longest_chain = static_cast<int>(rows.largest(chains.longest()));
-    const ReflectionMatrix<C> R(scene.materials, space);
     const TransportMatrix<C> T(table);
     const PowerBalance<C> balance(table, R, chains);
     const ExitantVector<C> Le = emitted_light<C>(scene, space);
@@ -269,10 +268,9 @@ TracedSeries trace_light(const Scene& scene, const RowShare& rows, const PatchSp
 }
 
 template <int C>
-TracedSeries trace_adjoint(const Scene& scene, const PatchSpace& space, const PatchSpace& coarser,
+TracedSeries trace_adjoint(const Scene& scene, const PatchSpace& space, const PatchSpace& coarser, const ReflectionMatrix<C>& R,
                            const TracedSeriesSettings& settings, const Watch& watch) {
     const RayTable table(space, settings.rays, settings.seed, watch);
-    const ReflectionMatrix<C> R(scene.materials, space);
     const auto K = adjoint(R * TransportMatrix<C>(table));
     TracedSeries series = series_of<C>([&](const auto& field) { return K(*field(0)); }, 0,
                                        camera_importance<C>(scene, space, settings.camera_samples, settings.seed), {},
@@ -288,19 +286,19 @@ TracedSeries trace_adjoint(const Scene& scene, const PatchSpace& space, const Pa
 
 TracedSeries trace_series(const Scene& scene, const PatchSpace& space, const PatchSpace& coarser,
                           const TracedSeriesSettings& settings, const Watch& watch) {
-    return trace_series(scene, RowShare(space), coarser, settings, watch);
+    return trace_series(scene, RowShare(space), coarser, SceneReflection(scene, space), settings, watch);
 }
 
-TracedSeries trace_series(const Scene& scene, const RowShare& rows, const PatchSpace& coarser, const TracedSeriesSettings& settings,
-                          const Watch& watch) {
-    return is_grey(scene) ? trace_light<1>(scene, rows, coarser, settings, watch)
-                          : trace_light<4>(scene, rows, coarser, settings, watch);
+TracedSeries trace_series(const Scene& scene, const RowShare& rows, const PatchSpace& coarser, const SceneReflection& reflection,
+                          const TracedSeriesSettings& settings, const Watch& watch) {
+    return reflection.with(
+        [&]<int C>(const ReflectionMatrix<C>& R) { return trace_light<C>(scene, rows, coarser, R, settings, watch); });
 }
 
 TracedSeries trace_importance(const Scene& scene, const PatchSpace& space, const PatchSpace& coarser,
-                              const TracedSeriesSettings& settings, const Watch& watch) {
-    return is_grey(scene) ? trace_adjoint<1>(scene, space, coarser, settings, watch)
-                          : trace_adjoint<4>(scene, space, coarser, settings, watch);
+                              const SceneReflection& reflection, const TracedSeriesSettings& settings, const Watch& watch) {
+    return reflection.with(
+        [&]<int C>(const ReflectionMatrix<C>& R) { return trace_adjoint<C>(scene, space, coarser, R, settings, watch); });
 }
 
 }  // namespace neumann

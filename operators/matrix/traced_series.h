@@ -17,6 +17,8 @@
 
 namespace neumann {
 
+class SceneReflection;
+
 struct TracedSeriesSettings {
     int bounces = 8;
     std::uint32_t rays = 32;           // per facet; a power of two
@@ -40,15 +42,15 @@ struct TracedSeries {
 // Throws Stopped if `watch` stops it; so does trace_importance().
 TracedSeries trace_series(const Scene& scene, const PatchSpace& space, const PatchSpace& coarser,
                           const TracedSeriesSettings& settings, const Watch& watch = {});
-// As above, where several processes share T: for all of them together, and all have the same series, that of one process alone; but
-// `power` is that to rounding. All throw Stopped if one is stopped.
-TracedSeries trace_series(const Scene& scene, const RowShare& rows, const PatchSpace& coarser, const TracedSeriesSettings& settings,
-                          const Watch& watch);
+// As above, with R made before, and where several processes share T: for all of them together, and all have the same series, that
+// of one process alone; but `power` is that to rounding. All throw Stopped if one is stopped.
+TracedSeries trace_series(const Scene& scene, const RowShare& rows, const PatchSpace& coarser, const SceneReflection& reflection,
+                          const TracedSeriesSettings& settings, const Watch& watch);
 
 // The series of importance: We, K* We, …, m⁻²·sr⁻¹, each averaged over all directions of a side. If Le does not depend on
 // direction, ⟨K*^i We, Le⟩ is the mean over pixels of the picture of bounce i. In the coarser space K_c* = M K* P, because M is the
 // adjoint of P.
 TracedSeries trace_importance(const Scene& scene, const PatchSpace& space, const PatchSpace& coarser,
-                              const TracedSeriesSettings& settings, const Watch& watch = {});
+                              const SceneReflection& reflection, const TracedSeriesSettings& settings, const Watch& watch = {});
 
 }  // namespace neumann

@@ -4,6 +4,7 @@
 #include "operators/matrix/link_light.h"
 #include "operators/matrix/ray_table.h"
 #include "operators/matrix/scene_patches.h"
+#include "operators/matrix/scene_reflection.h"
 #include "operators/matrix/traced_series.h"
 #include "operators/pictures/field_memory.h"
 #include "operators/pictures/field_pixels.h"
@@ -60,6 +61,7 @@ public:
           saving_(saving),
           space_(patches_of(settings, scene, processes ? processes->size() : 1)),
           coarser_(space_.coarser()),
+          reflection_(scene, space_),
           rows_(space_, settings.rays, processes),
           pictures_(scene.film, settings),
           pixels_(scene, settings),
@@ -138,8 +140,8 @@ private:
                                           .rest = settings_.rest,
                                           .glossy = glossy_of(settings_, scene_),
                                           .camera_samples = settings_.samples};
-        return pictures_.importance ? trace_importance(scene_, space_, coarser_, traced, watch_)
-                                    : neumann::trace_series(scene_, rows_, coarser_, traced, watch_);
+        return pictures_.importance ? trace_importance(scene_, space_, coarser_, reflection_, traced, watch_)
+                                    : neumann::trace_series(scene_, rows_, coarser_, reflection_, traced, watch_);
     }
 
     // One that was traced before; the first process has it, and gives it to the others.
@@ -301,6 +303,7 @@ private:
     double* spends_ = nullptr;        // what the clock's seconds belong to
     Stopwatch clock_;
     const PatchSpace space_, coarser_;
+    const SceneReflection reflection_;
     const RowShare rows_;
     FieldPictures pictures_;
     const FieldPixels pixels_;

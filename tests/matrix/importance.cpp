@@ -2,6 +2,7 @@
 #include "operators/matrix/camera_vector.h"
 #include "operators/matrix/inner_product.h"
 #include "operators/matrix/light_vector.h"
+#include "operators/matrix/scene_reflection.h"
 #include "operators/matrix/series_rest.h"
 #include "operators/matrix/sides.h"
 #include "operators/matrix/traced_series.h"
@@ -46,7 +47,7 @@ TEST(Importance, MeasuresEveryBounceOnBothSpaces) {
     const PatchSpace space(scene.geometry, {300, 0.6}, side_directions(scene)), coarser = space.coarser();
     const TracedSeriesSettings settings{.bounces = N, .rays = 64, .seed = 3, .camera_samples = 4};
     const TracedSeries light = trace_series(scene, space, coarser, settings),
-                       importance = trace_importance(scene, space, coarser, settings);
+                       importance = trace_importance(scene, space, coarser, SceneReflection(scene, space), settings);
     ASSERT_EQ(light.light_rays, 0u);
     for (const auto field : {&TracedSeries::fine, &TracedSeries::coarse})
         for (int i = 0; i <= N + 1; ++i)
@@ -66,7 +67,7 @@ TEST(Importance, IsTheMeanOverDirections) {
     ASSERT_GT(space.size(), space.facets().size());
     const TracedSeriesSettings settings{.bounces = N, .rays = 64, .seed = 3, .rest = false, .camera_samples = 16};
     const TracedSeries light = trace_series(scene, space, coarser, settings),
-                       importance = trace_importance(scene, space, coarser, settings);
+                       importance = trace_importance(scene, space, coarser, SceneReflection(scene, space), settings);
     ASSERT_EQ(light.light_rays, 0u);
     FieldStack We(space, 0);
     We.set<4>(0, camera_importance<4>(scene, space, settings.camera_samples, settings.seed));
@@ -104,7 +105,7 @@ TEST(Importance, MeasuresTheMeansOfThePictures) {
                                           .seed = settings.seed * 0x10001 + r,
                                           .rest = false,
                                           .camera_samples = settings.samples};
-        const FieldStack importance = trace_importance(scene, space, coarser, traced).fine;
+        const FieldStack importance = trace_importance(scene, space, coarser, SceneReflection(scene, space), traced).fine;
         for (int i = 0; i <= N; ++i) {
             double worth = 0.0;
             for (int c = 0; c < 3; ++c) worth += inner_product(importance, i, Le, 0, c) / 3.0;
