@@ -4,7 +4,8 @@
 //     K^i Le ≤ ‖Le‖∞ a^i,   a the largest albedo,
 //
 // is then its interval, in pixels where the camera sees a surface that reflects; in bounce 0, what it sees of points on lights. If
-// all sides have one cell and no light comes by links, then up to 3/n of a side's n rays could have met that (95%).
+// all sides have one cell and no light comes by links, then up to 3/n of a side's n rays could have met that (95%), and a bounce
+// after one that was met has at most a times the largest pixel of that, which is a bound where point lights have none.
 #pragma once
 
 #include "operators/pictures/series_report.h"

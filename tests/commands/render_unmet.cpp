@@ -133,6 +133,33 @@ TEST_F(RenderUnmet, FieldsHaveABoundOnWhatTheyMissed) {
     }
 }
 
+// A point light has no largest radiance: bounce 2 is bounded by what is seen of bounce 1. The plate below sees the floor's back.
+TEST_F(RenderUnmet, FieldsUnderAPointLightHaveABoundToo) {
+    write("scene.xml", R"(<scene version="3.0.0">
+<sensor type="perspective"><float name="fov" value="30"/>
+  <transform name="to_world"><lookat origin="0, 0, 3" target="0, 0, 0" up="0, 1, 0"/></transform>
+  <film type="hdrfilm"><integer name="width" value="16"/><integer name="height" value="16"/><rfilter type="box"/></film>
+</sensor>
+<shape type="rectangle"/>
+<shape type="rectangle"><transform name="to_world"><translate z="-2"/></transform></shape>
+<emitter type="point"><point name="position" x="0" y="0" z="1"/></emitter>
+</scene>)");
+    for (const std::string method : {"matrix", "gather", "patches"}) {
+        render("scene.xml", method,
+               {"-n", "3", "--spp", "16", "--patches", "100", "--directions", "64", "--method", method, "--quiet"});
+        const nlohmann::json run = run_json(method);
+        double largest = 0.0;
+        for (const Rgb& pixel : read_exr((path(method) / "bounce_001.exr").string()).mean.pixels)
+            largest = std::max(largest, pixel.g);
+        const double at_most = -std::log(0.05) / 64.0 * largest;  // at the default albedo 0.5, and in all of the picture
+        const auto interval = [&](const nlohmann::json& part) { return part.at("interval95").get<double>(); };
+        EXPECT_NEAR(interval(run.at("bounces")[2]), 0.5 * at_most, 1e-3 * at_most) << method;
+        EXPECT_NEAR(interval(run.at("bounces")[3]), 0.25 * at_most, 1e-3 * at_most) << method;
+        EXPECT_NEAR(interval(run.at("rest")), 0.25 * at_most, 1e-3 * at_most) << method << ": 1/8 + 1/16 + …";
+        EXPECT_LT(interval(run.at("sum")), at_most) << method;
+    }
+}
+
 // Black surfaces bring nothing, and no bound.
 TEST_F(RenderUnmet, BlackStaysBlack) {
     const Finished done = render_hidden(hidden_lamp(5.0, "0"), "a");

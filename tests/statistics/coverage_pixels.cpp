@@ -178,28 +178,36 @@ TEST(PixelCoverageSlow, OfASliver) {
 }
 
 // Paths that come to the lamp by several mirrors bring much and are rare: a pixel that has met few of them is more often too dark
-// than too bright, and its spread is too small with it, so that 89 to 92% of the intervals held by the spread alone. The truth is a
-// walk of 256 times as many samples, whose error is a sixteenth.
+// than too bright, and its spread is too small with it. What one sample more leaves open is not enough: with that alone 92.0, 92.1
+// and 92.8% hold. The truth is a walk of 256 times as many samples, whose error is a sixteenth. A share of so many intervals, which
+// neighbours judge together, is uncertain by about 0.3%.
 TEST(PixelCoverageSlow, WherePathsThatBringMuchAreRare) {
     const Scene scene = read_scene(SCENES "/metal-room/metal-room.xml", {{"res", "24"}});
     SamplingSettings settings{.walk = {.bounces = 4, .rest_probability = 0.0}, .seed = 777};
     const auto truth = render_series(scene, settings, {4096, std::nullopt, std::nullopt}).moments.result();
     for (std::size_t bounce = 2; bounce <= 4; ++bounce) {
         const Estimate exact = truth.term(bounce);
-        std::uint64_t of = 0, held = 0;
+        std::uint64_t of = 0, held = 0, held_by_spread = 0;
         for (settings.seed = 1; settings.seed <= 24; ++settings.seed) {
             const Rendered rendered = render_bounce(scene, settings, 16, bounce);
             const Image errors = rendered.term.pixel_errors();
             for (std::size_t i = 0; i < exact.mean.pixels.size(); ++i)
                 for (int c = 0; c < 3; ++c) {
                     const double off = std::abs(rendered.term.mean.pixels[i][c] - exact.mean.pixels[i][c]);
+                    const auto holds = [&](double error) {
+                        return off <= std::hypot(rendered.t * error, 2.0 * exact.standard_error.pixels[i][c]);
+                    };
                     ++of;
-                    held += off <= std::hypot(rendered.t * errors.pixels[i][c], 2.0 * exact.standard_error.pixels[i][c]);
+                    held += holds(errors.pixels[i][c]);
+                    held_by_spread += holds(rendered.term.standard_error.pixels[i][c]);
                 }
         }
-        const double rate = static_cast<double>(held) / static_cast<double>(of);
-        std::printf("metal-room, bounce %zu: %.2f%% of %llu\n", bounce, 100.0 * rate, static_cast<unsigned long long>(of));
-        EXPECT_GE(rate, 0.92) << bounce;
+        const auto rate_of = [&](std::uint64_t part) { return static_cast<double>(part) / static_cast<double>(of); };
+        const double rate = rate_of(held), by_spread = rate_of(held_by_spread);
+        std::printf("metal-room, bounce %zu: %.2f%% of %llu; by the spread alone %.2f%%\n", bounce, 100.0 * rate,
+                    static_cast<unsigned long long>(of), 100.0 * by_spread);
+        EXPECT_LT(by_spread, 0.92) << bounce << ": nothing to mend";
+        EXPECT_GE(rate, 0.93) << bounce;
         EXPECT_LE(rate, 0.995) << bounce;
     }
 }
