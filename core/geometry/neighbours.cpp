@@ -22,6 +22,11 @@ constexpr double reach_in_errors = 64.0;
 // With more faces around it than this, a face is in a crowd. In a mesh of even triangles there are about thirty.
 constexpr std::size_t crowd = 256;
 
+// A wall of a room is so much larger than the faces of a fine mesh in the room.
+constexpr double large_among_crowd = 16.0;
+constexpr int cells_among_crowd = 128;
+constexpr std::size_t asked_at_once = 64;
+
 // The number of cells along an edge: few enough that they need no more memory than the boxes, but at least 64.
 int cells_for(std::size_t boxes) {
     int count = 64;
@@ -57,22 +62,25 @@ bool continues(const DoubleFaces& faces, const Face& a, const Face& b) {
 }  // namespace
 
 Neighbours::Neighbours(const DoubleFaces& faces, const Giants& giants, const RayCaster& caster)
-    : faces_(faces), giants_(giants), caster_(&caster), large_(faces.all()), round_(faces.shapes().size(), State::unknown) {
-    for (const Face& f : large_) largest_error_ = std::max(largest_error_, faces_.error(f));
+    : faces_(faces), giants_(giants), caster_(&caster), round_(faces.shapes().size(), State::unknown) {
+    std::vector<Face> large = faces_.all();
+    for (const Face& f : large) largest_error_ = std::max(largest_error_, faces_.error(f));
     for (std::uint32_t shape = 0; shape < faces_.shapes().size(); ++shape)
         if (faces_.is_of_instance({shape, 0})) {
             keeps_nothing_ = true;
             error_of_rest_ = std::max(error_of_rest_, faces_.error({shape, 0}));
         }
     largest_error_ = std::max(largest_error_, error_of_rest_);
-    if (large_.size() <= largest_asked_one_by_one) return;
-    const auto rest = large_.begin() + largest_asked_one_by_one;
-    std::nth_element(large_.begin(), rest, large_.end(),
-                     [&](const Face& a, const Face& b) { return std::pair(-faces_.error(a), a) < std::pair(-faces_.error(b), b); });
-    error_of_rest_ = std::max(error_of_rest_, faces_.error(*rest));
-    large_.erase(rest, large_.end());
-    large_.insert(large_.end(), giants.faces.begin(), giants.faces.end());
-    large_.shrink_to_fit();
+    if (large.size() > largest_asked_one_by_one) {
+        const auto rest = large.begin() + largest_asked_one_by_one;
+        std::nth_element(large.begin(), rest, large.end(), [&](const Face& a, const Face& b) {
+            return std::pair(-faces_.error(a), a) < std::pair(-faces_.error(b), b);
+        });
+        error_of_rest_ = std::max(error_of_rest_, faces_.error(*rest));
+        large.erase(rest, large.end());
+        large.insert(large.end(), giants.faces.begin(), giants.faces.end());
+    }
+    for (const Face& f : large) large_.push_back({f, faces_.bounds(f), faces_.error(f)});
 }
 
 // In a fine mesh, the reach extends at most to the next triangle but one.
@@ -85,7 +93,7 @@ double Neighbours::reach(const Face& a, const Face& b) const {
 
 // Appends all faces closer to p than `distance`, or within their reach of a face whose error is at most distance / reach_in_errors.
 void Neighbours::append_near(const Vec3& p, double distance, std::vector<Face>& found) const {
-    found.insert(found.end(), large_.begin(), large_.end());
+    for (const Large& large : large_) found.push_back(large.face);
     if (error_of_rest_ > 0.0)
         caster_->any_near(p, distance + reach_in_errors * error_of_rest_, [&](const Face& f) {
             found.push_back(f);
@@ -129,7 +137,9 @@ void Neighbours::part(SurfacePoint& p, const StartedRay* ray) const {
 }
 
 bool Neighbours::has_near(const SurfacePoint& p, double aside) const {
-    const Boxes& boxes = surroundings_.find({p.shape, p.primitive})->second.boxes;
+    const Surroundings& around = surroundings_.find({p.shape, p.primitive})->second;
+    if (around.crowded) return is_near_other(p, aside);
+    const Boxes& boxes = around.boxes;
     const auto held = boxes.qbegin(index::intersects(Corner(p.position.x, p.position.y, p.position.z)));
     return std::any_of(held, boxes.qend(),
                        [&](const auto& entry) { return faces_.is_near(entry.second.face, p.position, entry.second.near + aside); });
@@ -162,7 +172,10 @@ bool Neighbours::is_near_other(const SurfacePoint& p, double aside) const {
         const double reach = reach_of_close_points(f, other);
         return reach > 0.0 && faces_.is_near(other, p.position, reach + aside);
     };
-    return std::any_of(large_.begin(), large_.end(), is_near) ||
+    const auto may_be_near = [&](const Large& large) {
+        return holds(large.bounds.grown(reach_in_errors * (p.error + large.error) + aside), p.position) && is_near(large.face);
+    };
+    return std::any_of(large_.begin(), large_.end(), may_be_near) ||
            (error_of_rest_ > 0.0 && caster_->any_near(p.position, reach(p.error + error_of_rest_, size) + aside, is_near));
 }
 
@@ -197,40 +210,86 @@ bool Neighbours::may_hide(const SurfacePoint& p, double cosine) const {
     return grazes || has_near(p, aside);
 }
 
-std::optional<std::vector<Face>> Neighbours::others_around(const Face& f) const {
+Neighbours::Others Neighbours::others_around(const Face& f) const {
     const Bounds bounds = faces_.bounds(f);
     const Vec3 center = bounds.center();
     const double distance =
         bounds.radius() + reach_in_errors * (faces_.error(f) + error_of_rest_) + largest_error_ / Triangle::grazing;
-    std::vector<Face> others = large_;
+    std::vector<Face> others;
+    for (const Large& large : large_) others.push_back(large.face);
     if (error_of_rest_ > 0.0 && caster_->any_near(center, distance, [&](const Face& other) {
             const Bounds of_other = faces_.bounds(other);
             const Vec3 nearest = glm::clamp(center, of_other.low, of_other.high);
             if (glm::length(nearest - center) <= distance) others.push_back(other);
             return others.size() - large_.size() > crowd;
         }))
-        return std::nullopt;
+        return {{others.begin() + static_cast<std::ptrdiff_t>(large_.size()), others.end()}, true};
     std::sort(others.begin(), others.end());
     others.erase(std::unique(others.begin(), others.end()), others.end());
-    return others;
+    return {std::move(others)};
+}
+
+void Neighbours::mark_near_others(const Face& f, int column, int row, int squares, WeightCells& cells) const {
+    if (column + row >= squares) return;  // beyond the third edge
+    const auto corners = faces_.vertices(f);
+    const double width = 1.0 / squares, u = column * width, v = row * width;
+    const std::array<Vec2, 4> square{Vec2(u, v), Vec2(u + width, v), Vec2(u + width, v + width), Vec2(u, v + width)};
+    Bounds bounds;
+    for (const Vec2& w : square) bounds.add(corners[0] + (corners[1] - corners[0]) * w.x + (corners[2] - corners[0]) * w.y);
+    const double error = faces_.error(f), aside = largest_error_ / Triangle::grazing;
+    const auto may_be_near = [&](const Face& other, double error_of_other, const Bounds& of_other) {
+        const double most = reach_in_errors * (error + error_of_other) + aside;
+        return !(other == f) && !intersection(bounds.grown(most), of_other).is_empty() && reach_of_close_points(f, other) > 0.0;
+    };
+    std::size_t asked = 0;
+    const bool near =
+        std::any_of(large_.begin(), large_.end(),
+                    [&](const Large& other) { return may_be_near(other.face, other.error, other.bounds); }) ||
+        (error_of_rest_ > 0.0 &&
+         caster_->any_near(bounds.center(), bounds.radius() + reach_in_errors * (error + error_of_rest_) + aside,
+                           [&](const Face& other) {
+                               return ++asked > asked_at_once || may_be_near(other, faces_.error(other), faces_.bounds(other));
+                           }));
+    if (!near) return;
+    if (squares == cells_among_crowd) {
+        cells.mark(square);
+        return;
+    }
+    for (const int down : {0, 1})
+        for (const int right : {0, 1}) mark_near_others(f, 2 * column + right, 2 * row + down, 2 * squares, cells);
+}
+
+void Neighbours::examine_among_crowd(const Face& f, const std::vector<Face>& some) const {
+    const TriangleOfFace t = faces_.triangle(f);
+    if (!t) {
+        std::atomic_ref(round_[f.shape]).store(State::crowded, std::memory_order_release);
+        return;
+    }
+    std::vector<double> sizes;
+    for (const Face& other : some) sizes.push_back(faces_.size(other));
+    const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+    std::nth_element(sizes.begin(), middle, sizes.end());
+    if (faces_.size(f) < large_among_crowd * *middle) {
+        t->set_crowded();
+        return;
+    }
+    WeightCells cells(cells_among_crowd);
+    mark_near_others(f, 0, 0, 1, cells);
+    const auto kept = surroundings_.emplace(f, Surroundings{std::move(cells), Boxes(), true}).first;
+    const float on_edge = std::numeric_limits<float>::min();
+    t->set_close(on_edge, on_edge, &kept->second.cells);
 }
 
 void Neighbours::examine(const Face& f) const {
-    const auto others = others_around(f);
-    if (!others) {
-        if (const TriangleOfFace t = faces_.triangle(f))
-            t->set_crowded();
-        else
-            std::atomic_ref(round_[f.shape]).store(State::crowded, std::memory_order_release);
-        return;
-    }
+    const Others others = others_around(f);
+    if (others.crowd) return examine_among_crowd(f, others.faces);
     const Bounds bounds = faces_.bounds(f);
     const double error = faces_.error(f), aside = largest_error_ / Triangle::grazing;
     const auto is_small = [&](const Face& other) { return faces_.size(other) < small * faces_.size(f); };
     double strip = 0.0, corner = 0.0;
     std::vector<std::pair<Box, Other>> boxes;
     std::vector<std::vector<Vec2>> polygons;
-    for (const Face& other : *others) {
+    for (const Face& other : others.faces) {
         if (other == f) continue;
         const double errors = error + faces_.error(other);
         if (intersection(bounds.grown(reach_in_errors * errors + aside), faces_.bounds(other)).is_empty()) continue;

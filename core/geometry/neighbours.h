@@ -65,18 +65,28 @@ private:
     };
     using Boxes = boost::geometry::index::rtree<std::pair<Box, Other>, boost::geometry::index::linear<16>>;
 
-    // The faces close to the interior of a face, in boxes; for a triangle, the cells allow a quick first test.
+    // The faces close to the interior of a face, in boxes; for a triangle, the cells allow a quick first test. Of a triangle that
+    // is large among a crowd only the cells are kept.
     struct Surroundings {
         WeightCells cells;
         Boxes boxes;
+        bool crowded = false;
     };
     // Points of f that are nearer than this to the other face are close; 0 if the other continues f.
     double reach_of_close_points(const Face& f, const Face& other) const;
     // Where nothing is cached: whether another face is that near, plus `aside`.
     bool is_near_other(const SurfacePoint& p, double aside) const;
     void examine(const Face& f) const;
-    // The faces that may have close points on f; nothing if they are a crowd.
-    std::optional<std::vector<Face>> others_around(const Face& f) const;
+    // The faces that may have close points on f, or as many of them as are a crowd.
+    struct Others {
+        std::vector<Face> faces;
+        bool crowd = false;
+    };
+    Others others_around(const Face& f) const;
+    void examine_among_crowd(const Face& f, const std::vector<Face>& some) const;
+    // Marks the cells of the triangle f that may be close to others, from the square of weights of this width: row and column are
+    // those of the square.
+    void mark_near_others(const Face& f, int column, int row, int squares, WeightCells& cells) const;
     enum class State : std::uint8_t { unknown, clear, not_clear, crowded };
     State state_of_round(const Face& f) const;
     // Whether a face in the surroundings of p's face is within its `near` distance plus `aside`.
@@ -94,7 +104,13 @@ private:
     DoubleFaces faces_;
     Giants giants_;
     const RayCaster* caster_;
-    std::vector<Face> large_;  // tested one by one, so that small search spheres suffice for the others
+    // Faces tested one by one, so that small search spheres suffice for the others.
+    struct Large {
+        Face face;
+        Bounds bounds;
+        double error;
+    };
+    std::vector<Large> large_;
     double error_of_rest_ =
         0;  // the largest error of the others
             // Scenes with instances may have a thousand times more faces than memory for them, all of them near a ground.

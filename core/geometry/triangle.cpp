@@ -31,6 +31,14 @@ Triangle::Triangle(const Vec3& a, const Vec3& b, const Vec3& c, double error) : 
     const Edges edges{b - a, c - a};
     const auto [product, longest] = across(a, b, c);
     const double twice = glm::length(product);
+    // An instance's, thinner than doubles can tell where it is placed: no ray hits it in double.
+    if (!(twice > 0.0)) {
+        normal_ = {0.0, 0.0, 1.0};
+        dual1_ = dual2_ = Vec3(0.0);
+        rounding_ = 1.0f;
+        margin_ = 0.0f;
+        return;
+    }
     normal_ = product / twice;
     dual1_ = glm::cross(edges.second, normal_) / twice;
     dual2_ = glm::cross(normal_, edges.first) / twice;

@@ -1,5 +1,6 @@
 // Fields f_k ≈ K^k Le, k ≥ 1, on diffuse sides, interpolated bilinearly on a raster over each chart, so that a hit reads all
-// bounces from four neighbouring places. K Le has a finer raster of its own, as its shadows have edges.
+// bounces from four neighbouring places. K Le has a finer raster of its own, as its shadows have edges. On clusters of faces fields
+// are constant, and K Le is constant on parts of clusters.
 #pragma once
 
 #include "operators/correction/diffuse_sides.h"
@@ -28,15 +29,26 @@ public:
     // f_1(p), f_2(p), … on a side that has fields: three floats each, 3 size() in all.
     void read(const SurfacePoint& p, bool front, float* fields) const {
         const std::uint32_t number = space_->patches().chart_of(p);
+        if (const FaceClusters* clusters = space_->patches().charts()[number].clusters()) {
+            const std::size_t side = front ? 0 : 1;
+            const Grid &grid = grids_[number], &fine = fine_grids_[number];
+            const float* const later =
+                values_.data() + (grid.first[side] + space_->patches().locate(p) - grid.first_patch) * stride_;
+            const float* const direct = fine_.data() + 3 * (fine.first[side] + column(fine, clusters->place(p.primitive)));
+            std::copy_n(later, stride_, fields);
+            std::copy_n(direct, 3, fields);
+            return;
+        }
         const Place place = place_on(number, p.position);
         blend(values_.data(), stride_, stride_, corners(grids_[number], place, front), fields);
         blend(fine_.data(), 3, 3, corners(fine_grids_[number], place, front), fields);
     }
 
 private:
-    // Nodes at the chart's coordinates (i/(columns−1), j/(rows−1)).
+    // Nodes at the chart's coordinates (i/(columns−1), j/(rows−1)). Of clusters, one for each, or for each of equal parts of s.
     struct Grid {
         std::uint32_t columns = 0, rows = 0;
+        std::uint32_t first_patch = 0;
         std::array<std::size_t, 2> first{};  // of the front and of the back
     };
     struct Place {
@@ -64,9 +76,13 @@ private:
         for (std::size_t k = 0; k < count; ++k)
             to[k] = (c.weight[0] * v0[k] + c.weight[1] * v1[k]) + (c.weight[2] * v2[k] + c.weight[3] * v3[k]);
     }
+    static std::uint32_t column(const Grid& grid, double s) {
+        return std::min(static_cast<std::uint32_t>(s * grid.columns), grid.columns - 1);
+    }
     Grid make_grid(std::uint32_t chart, double cells, std::size_t& nodes) const;
     // A point of the raster, a little inside of the chart.
     SurfacePoint node(std::uint32_t chart, const Grid& grid, std::uint32_t column, std::uint32_t row) const;
+    SurfacePoint place_in_part(std::uint32_t chart, const Grid& grid, std::uint32_t column, std::uint32_t i) const;
     void fill(const FieldStack& fields);
     void fill_direct(const Scene& scene, std::uint64_t seed, const Watch& watch);
 

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::uint64_t stream = 0x66697273ull;  // another seed than the pictures'
 constexpr int most_pixels = 192, bounces = 6;
-constexpr std::size_t most_faces = 20'000;
+constexpr std::size_t most_shapes = 20'000;
 
 bool makes_all_paths(const Method& method) {
     return std::holds_alternative<method::Auto>(method) || std::holds_alternative<method::Walk>(method) ||
@@ -21,16 +21,10 @@ bool makes_all_paths(const Method& method) {
            std::holds_alternative<method::Pointwise>(method);
 }
 
-std::size_t faces(const Geometry& geometry) {
-    std::size_t count = 0;
-    for (std::uint32_t shape = 0; shape < geometry.shapes().size(); ++shape) count += geometry.primitive_count(shape);
-    return count;
-}
-
 }  // namespace
 
 void show_first_pictures(const Scene& scene, const Method& method, const Goal& goal, const Watch& watch) {
-    if (!watch.show || goal.colors || !makes_all_paths(method) || faces(scene.geometry) > most_faces) return;
+    if (!watch.show || goal.colors || !makes_all_paths(method) || scene.geometry.shapes().size() > most_shapes) return;
     FieldSettings settings;
     settings.bounces = std::min(goal.bounces.value_or(scene.bounces.value_or(bounces)), bounces);
     if (expected_rays(with_default_limits(goal), scene.film, settings.bounces) < rays_of_a_long_render) return;

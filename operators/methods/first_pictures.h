@@ -9,7 +9,7 @@
 namespace neumann {
 
 // Gives them to watch.show. Does nothing if that is empty, where the render is short or begins with fields anyway, where the method
-// makes only some of all paths, and in scenes of so many faces that patches of them take long.
+// makes only some of all paths, and in scenes of so many shapes that patches of them take long.
 void show_first_pictures(const Scene& scene, const Method& method, const Goal& goal, const Watch& watch);
 
 }  // namespace neumann

@@ -1,4 +1,4 @@
-// What a method makes ready before its first sample, foretold from the faces of the scene: each side of a face is a patch at least.
+// What a method makes ready before its first sample, foretold from the patches of the scene: each side of a shape is one at least.
 #pragma once
 
 #include "operators/methods/method.h"
@@ -10,7 +10,7 @@
 namespace neumann {
 
 struct Preparation {
-    double faces = 0.0;  // of the scene
+    double facets = 0.0;  // sides of patches
     double rays = 0.0;
     double seconds = 0.0;
 };
@@ -25,7 +25,7 @@ Method prepared_in_time(double seconds, const Method& method, const Scene& scene
 // A preparation is given up after so many seconds: what was foretold may be wrong by a half.
 double cut_off_preparation(double seconds);
 
-// "its fields on 100000 faces would take about 36 s to make"
+// "its fields on 4000 patches would take about 3.6 s to make"
 std::string describe(const Preparation& preparation);
 
 }  // namespace neumann

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <map>
+#include <numeric>
 
 namespace neumann {
 
@@ -32,32 +34,133 @@ bool is_plane_and_convex(const std::array<Vec3, 4>& p, const Vec3& normal) {
     return true;
 }
 
+// Of a shape that has so many faces, or fewer, none are joined: the sides of a small box are patches each.
+constexpr std::size_t few_faces = 16;
+// Larger instances are joined as a whole, also if some of their faces are large: a table of the faces of each might not fit in
+// memory.
+constexpr std::size_t most_faces_of_instances = 10'000'000;
+
+bool is_small(double face, double patch_area) { return face <= 0.5 * patch_area; }
+
+// The faces of each mesh that are joined, because patches are larger.
+class SmallFaces {
+public:
+    SmallFaces(const Geometry& geometry, const std::vector<ShapeArea>& areas, double patch_area, std::size_t patches)
+        : geometry_(geometry), areas_(areas), patch_area_(patch_area) {
+        std::size_t kept = 0;
+        for (std::uint32_t shape = 0; shape < areas.size(); ++shape) {
+            const std::size_t faces = geometry.primitive_count(shape);
+            if (std::holds_alternative<MeshInstance>(geometry.shapes()[shape])) of_instances_ += faces;
+            if (faces > 1 && faces <= few_faces) kept += listed(shape).size();
+        }
+        keeps_few_ = 2 * kept <= patches;
+    }
+    bool are_all(std::uint32_t shape) const {
+        const std::size_t faces = geometry_.primitive_count(shape);
+        const bool is_instance = std::holds_alternative<MeshInstance>(geometry_.shapes()[shape]);
+        return faces > (keeps_few_ ? few_faces : 1) &&
+               (is_small(areas_[shape].largest_face, patch_area_) || (is_instance && of_instances_ > most_faces_of_instances));
+    }
+    std::vector<std::uint32_t> of(std::uint32_t shape) const {
+        std::vector<std::uint32_t> faces = listed(shape);
+        if (faces.size() <= (keeps_few_ ? few_faces : 1)) faces.clear();
+        return faces;
+    }
+
+private:
+    std::vector<std::uint32_t> listed(std::uint32_t shape) const {
+        std::vector<std::uint32_t> faces;
+        for (std::uint32_t face = 0; face < geometry_.primitive_count(shape); ++face)
+            if (is_small(geometry_.area(shape, face), patch_area_)) faces.push_back(face);
+        return faces;
+    }
+
+    const Geometry& geometry_;
+    const std::vector<ShapeArea>& areas_;
+    double patch_area_;
+    std::size_t of_instances_ = 0;
+    bool keeps_few_ = true;
+};
+
+double total(const std::vector<ShapeArea>& areas) {
+    double sum = 0.0;
+    for (const ShapeArea& shape : areas) sum += shape.area;
+    return sum;
+}
+
 }  // namespace
 
-Atlas::Atlas(const Geometry& geometry, double patch_area) {
-    for (std::uint32_t shape = 0; shape < geometry.shapes().size(); ++shape) {
-        first_of_shape_.push_back(primitives_.size());
-        primitives_.resize(primitives_.size() + geometry.primitive_count(shape));
-        if (const auto* mesh = std::get_if<TriangleMesh>(&geometry.shapes()[shape])) {
-            add_mesh(shape, *mesh, patch_area);
-        } else if (geometry.area(shape) > 0.0) {
-            primitives_.back().chart = static_cast<std::uint32_t>(charts_.size());
+Atlas::Atlas(const Geometry& geometry, const std::vector<ShapeArea>& areas, std::size_t patches) {
+    const double patch_area = total(areas) / static_cast<double>(std::max<std::size_t>(patches, 1));
+    const SmallFaces small(geometry, areas, patch_area, patches);
+    for (std::uint32_t shape = 0; shape < areas.size(); ++shape) {
+        const auto chart = static_cast<std::uint32_t>(charts_.size());
+        const bool is_mesh = mesh_of(geometry.shapes()[shape]);
+        shapes_.push_back({primitives_.size(), chart});
+        keeps_shares_.push_back(areas[shape].keeps_shares);
+        if (is_mesh && small.are_all(shape))
+            charts_.emplace_back(shape, geometry.primitive_count(shape), areas[shape].area);
+        else if (is_mesh)
+            add_mesh(geometry, shape, small.of(shape), patch_area);
+        else if (areas[shape].area > 0.0)
             charts_.emplace_back(geometry, shape);
-        }
     }
 }
 
-void Atlas::add_mesh(std::uint32_t shape, const TriangleMesh& mesh, double patch_area) {
-    std::vector<bool> has_chart(mesh.triangles.size());
+void Atlas::add_mesh(const Geometry& geometry, std::uint32_t shape, Faces small, double patch_area) {
+    const std::size_t faces = geometry.primitive_count(shape);
+    shapes_.back().is_one_chart = false;
+    primitives_.resize(primitives_.size() + faces);
+    std::vector<bool> has_chart(faces);
+    if (!small.empty()) {
+        const auto chart = static_cast<std::uint32_t>(charts_.size());
+        double area = 0.0;
+        for (const std::uint32_t face : small) {
+            has_chart[face] = true;
+            primitives_[shapes_.back().first + face].chart = chart;
+            area += geometry.area(shape, face);
+        }
+        charts_.emplace_back(shape, small.size(), area);
+        small_.emplace(chart, std::move(small));
+    }
+    add_faces(geometry, shape, std::move(has_chart), patch_area);
+}
+
+const FaceClusters& Atlas::join(const Geometry& geometry, std::uint32_t number, std::size_t clusters) {
+    Chart& chart = charts_[number];
+    const auto* const instance = std::get_if<MeshInstance>(&geometry.shapes()[chart.shape()]);
+    const auto make = [&](std::size_t n) {
+        Faces faces(chart.small_faces());
+        if (const auto listed = small_.find(number); listed != small_.end())
+            faces = std::move(listed->second);
+        else
+            std::iota(faces.begin(), faces.end(), 0u);
+        return std::make_shared<const FaceClusters>(geometry, chart.shape(), std::move(faces), n);
+    };
+    if (instance && keeps_shares_[chart.shape()] && !small_.contains(number)) {
+        // A power of two, so that instances of different sizes share what they can.
+        const std::size_t n = std::bit_floor(clusters);
+        auto& shared = shared_[{instance->shared().get(), n}];
+        if (!shared) shared = make(n);
+        chart.set_clusters(shared);
+    } else {
+        chart.set_clusters(make(clusters));
+    }
+    small_.erase(number);
+    return *chart.clusters();
+}
+
+void Atlas::add_faces(const Geometry& geometry, std::uint32_t shape, std::vector<bool> has_chart, double patch_area) {
+    const Shape& mesh = geometry.shapes()[shape];
     add_pairs(shape, mesh, has_chart);
-    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    for (std::size_t i = 0; i < has_chart.size(); ++i) {
         if (has_chart[i]) continue;
         const auto number = static_cast<std::uint32_t>(i);
         const std::array<Vec3, 3> corners = corners_of(mesh, number).at;
         const auto& [a, b, c] = corners;
         const double twice = glm::length(across(corners));
         const Vec3 normal = across(corners) / twice;
-        Primitive& primitive = primitives_[first_of_shape_[shape] + i];
+        Primitive& primitive = primitives_[shapes_[shape].first + i];
         primitive.chart = static_cast<std::uint32_t>(charts_.size());
         if (0.5 * twice <= patch_area) {
             charts_.emplace_back(shape, std::array{a, b, c, c}, normal, number, number);
@@ -72,10 +175,11 @@ void Atlas::add_mesh(std::uint32_t shape, const TriangleMesh& mesh, double patch
     }
 }
 
-void Atlas::add_pairs(std::uint32_t shape, const TriangleMesh& mesh, std::vector<bool>& has_chart) {
+void Atlas::add_pairs(std::uint32_t shape, const Shape& mesh, std::vector<bool>& has_chart) {
     // The longest shared edges come first: these are the diagonals of rectangles.
     std::map<EdgeEnds, std::vector<std::uint32_t>> at_edge;
-    for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
+    for (std::uint32_t i = 0; i < has_chart.size(); ++i) {
+        if (has_chart[i]) continue;
         const auto [a, b, c] = corners_of(mesh, i).at;
         for (const auto& [x, y] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)}) at_edge[edge_between(x, y)].push_back(i);
     }
@@ -102,7 +206,7 @@ void Atlas::add_pairs(std::uint32_t shape, const TriangleMesh& mesh, std::vector
                 if (!is_plane_and_convex(quad, normal)) continue;
                 for (const std::uint32_t triangle : {pair.first, pair.second}) {
                     has_chart[triangle] = true;
-                    primitives_[first_of_shape_[shape] + triangle].chart = static_cast<std::uint32_t>(charts_.size());
+                    primitives_[shapes_[shape].first + triangle].chart = static_cast<std::uint32_t>(charts_.size());
                 }
                 charts_.emplace_back(shape, quad, normal, pair.first, pair.second);
             }

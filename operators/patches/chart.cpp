@@ -57,4 +57,7 @@ Chart::Chart(std::uint32_t shape, const std::array<Vec3, 4>& corners, const Vec3
       upper_(upper),
       lengths_(quad_->lengths()) {}
 
+Chart::Chart(std::uint32_t shape, std::size_t faces, double area)
+    : shape_(shape), area_(area), lengths_(std::sqrt(area)), small_faces_(faces) {}
+
 }  // namespace neumann

@@ -2,10 +2,12 @@
 #pragma once
 
 #include "core/geometry/geometry.h"
+#include "operators/patches/face_clusters.h"
 
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 
 namespace neumann {
@@ -65,15 +67,29 @@ public:
     // The quadrilateral a b c d, made of the triangles `lower`, on b's side of the diagonal a c, and `upper`; they may be the same.
     Chart(std::uint32_t shape, const std::array<Vec3, 4>& corners, const Vec3& normal, std::uint32_t lower, std::uint32_t upper);
 
+    // Small faces of a mesh or an instance: so many, with this area. They have no places before set_clusters().
+    Chart(std::uint32_t shape, std::size_t faces, double area);
+
     std::uint32_t shape() const { return shape_; }
     // A quadrilateral, with its corners (the last two may coincide) and its normal.
     bool is_plane() const { return quad_.has_value(); }
     const std::array<Vec3, 4>& corners() const { return corners_; }
     Vec3 normal() const { return quad_->normal(); }
+    // Null unless the chart is of clusters, which are ranges of s.
+    const FaceClusters* clusters() const { return clusters_.get(); }
+    // The number of faces of clusters; 0 of other charts.
+    std::size_t small_faces() const { return small_faces_; }
+    void set_clusters(std::shared_ptr<const FaceClusters> clusters) { clusters_ = std::move(clusters); }
+
+    // Not of clusters: of a position on the chart, or near its plane.
     Vec2 coordinates(const Geometry& geometry, const Vec3& position) const {
         return quad_ ? quad_->coordinates(position) : geometry.round_coordinates(shape_, position);
     }
+    Vec2 coordinates(const Geometry& geometry, const SurfacePoint& p) const {
+        return clusters_ ? clusters_->coordinates(geometry, p) : coordinates(geometry, p.position);
+    }
     SurfacePoint point(const Geometry& geometry, const Vec2& st) const {
+        if (clusters_) return clusters_->point(geometry, shape_, st);
         if (!quad_) return geometry.point(shape_, 0, st);
         const Vec3 p = quad_->position(st);
         return geometry.point_on_triangle(shape_, glm::dot(p - corners_[0], up_) > 0.0 ? upper_ : lower_, p);
@@ -94,9 +110,11 @@ private:
     std::array<Vec3, 4> corners_{};
     Vec3 up_{0.0};  // points with (p − first corner) · up > 0 lie on `upper`
     std::uint32_t lower_ = 0, upper_ = 0;
-    double area_ = 0.0;  // for round shapes
+    double area_ = 0.0;  // for round shapes and clusters
     Vec2 lengths_;
     bool closed_in_t_ = false;
+    std::size_t small_faces_ = 0;
+    std::shared_ptr<const FaceClusters> clusters_;
 };
 
 }  // namespace neumann

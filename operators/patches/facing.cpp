@@ -47,7 +47,7 @@ bool Facing::nothing(const Chart& chart, bool front) const {
             return glm::distance(ball.center, sphere->center) + ball.radius <= sphere->radius + slack;
         });
     }
-    if (std::holds_alternative<Cylinder>(geometry_.shapes()[chart.shape()])) return false;
+    if (chart.clusters() || std::holds_alternative<Cylinder>(geometry_.shapes()[chart.shape()])) return false;
     const SurfacePoint p = chart.point(geometry_, Vec2(0.5));
     const Vec3 normal = front ? p.normal : -p.normal;
     return std::all_of(balls_.begin(), balls_.end(),

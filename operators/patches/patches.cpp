@@ -12,28 +12,11 @@ namespace neumann {
 
 namespace {
 
-std::size_t triangles_of_instances(const Geometry& geometry) {
-    std::size_t sum = 0;
-    for (const Shape& shape : geometry.shapes())
-        if (const auto* instance = std::get_if<MeshInstance>(&shape)) sum += instance->mesh().triangles.size();
-    return sum;
-}
-
-double total_area(const Geometry& geometry) {
+double total_area(const std::vector<ShapeArea>& areas) {
     double sum = 0.0;
-    for (std::uint32_t shape = 0; shape < geometry.shapes().size(); ++shape) sum += geometry.area(shape);
+    for (const ShapeArea& shape : areas) sum += shape.area;
+    if (sum == 0.0) throw InputError("the scene has no surfaces, so there is nothing to cut into patches");
     return sum;
-}
-
-double positive_area(const Geometry& geometry) {
-    if (const std::size_t triangles = triangles_of_instances(geometry); triangles > 0)
-        throw InputError(
-            fmt::format("the scene has meshes that are in memory once and seen several times, {} triangles in all, and patches "
-                        "would hold each of these; the methods walk, bidirectional and pointwise do without patches",
-                        triangles));
-    const double area = total_area(geometry);
-    if (area == 0.0) throw InputError("the scene has no surfaces, so there is nothing to cut into patches");
-    return area;
 }
 
 // How charts are cut into cells. `divides`: also those that are smaller than a cell, into four, so that coarser cells differ from
@@ -43,8 +26,16 @@ struct Cutting {
     bool divides;
 };
 
+// A body has six sides.
+constexpr std::size_t least_clusters = 6;
+
 // Numbers of cells along the two directions of a chart.
 std::array<std::size_t, 2> cells_of(const Chart& chart, const Cutting& cutting) {
+    if (const std::size_t faces = chart.small_faces(); faces > 0) {
+        const double area = chart.area({0.0, 1.0, 0.0, 1.0});
+        const std::size_t least = std::min(cutting.divides ? least_clusters : 1, faces);
+        return {std::clamp(static_cast<std::size_t>(std::lround(area / (cutting.width * cutting.width))), least, faces), 1};
+    }
     const auto along = [&](double length) { return static_cast<std::size_t>(std::max(1.0, std::round(length / cutting.width))); };
     const Vec2 lengths = chart.lengths();
     // Around a pole at least three cells are needed.
@@ -80,17 +71,22 @@ Cutting choose_cutting(const std::vector<Chart>& charts, double area, std::size_
 
 }  // namespace
 
-Patches::Patches(const Geometry& geometry, const Patching& patching)
-    : geometry_(&geometry),
-      atlas_(geometry, positive_area(geometry) / static_cast<double>(std::max<std::size_t>(patching.patches, 1))) {
+Patches::Patches(const Geometry& geometry, const Patching& patching) : Patches(geometry, patching, shape_areas(geometry)) {}
+
+Patches::Patches(const Geometry& geometry, const Patching& patching, const std::vector<ShapeArea>& areas)
+    : geometry_(&geometry), atlas_(geometry, areas, patching.patches) {
     if (patching.patches == 0) throw InputError("0 patches: at least one is needed");
-    const double area = total_area(geometry);
+    const double area = total_area(areas);
     const Cutting cutting = choose_cutting(charts(), area, patching.patches);
     const auto cells = static_cast<double>(count_cells(charts(), cutting));
     footprints_ = find_footprints(geometry, charts(), near * std::sqrt(area / cells));
-    for (const Chart& chart : charts()) {
+    for (std::uint32_t number = 0; number < charts().size(); ++number) {
+        const Chart& chart = charts()[number];
         const auto [across, along] = cells_of(chart, cutting);
-        add_grid(axis(across, patching.grading, false), axis(along, patching.grading, chart.closed_in_t()));
+        if (chart.small_faces() > 0)
+            add_grid(axis(atlas_.join(geometry, number, across).ends(), false, FaceClusters::joined), axis({0.0, 1.0}, false));
+        else
+            add_grid(axis(across, patching.grading, false), axis(along, patching.grading, chart.closed_in_t()));
     }
 }
 
@@ -194,6 +190,12 @@ std::vector<std::uint32_t> Patches::coarser_of_each(const Patches& coarse) const
     return result;
 }
 
+std::uint32_t Patches::cells_along(std::uint32_t chart) const {
+    const std::uint32_t along_s = size_of(grids_[chart].s), along_t = size_of(grids_[chart].t);
+    if (charts()[chart].clusters()) return static_cast<std::uint32_t>(std::ceil(std::sqrt(along_s)));
+    return std::max(along_s, along_t);
+}
+
 Patches::Axis Patches::axis(std::size_t cells, double grading, bool closed) {
     std::vector<double> ends;
     for (std::size_t i = 0; i <= cells; ++i) {
@@ -203,8 +205,8 @@ Patches::Axis Patches::axis(std::size_t cells, double grading, bool closed) {
     return axis(std::move(ends), closed);
 }
 
-Patches::Axis Patches::axis(std::vector<double> ends, bool closed) {
-    Axis axis{std::move(ends), {}, {}, {}, closed};
+Patches::Axis Patches::axis(std::vector<double> ends, bool closed, std::uint32_t joined) {
+    Axis axis{std::move(ends), {}, {}, {}, closed, joined};
     for (std::size_t i = 0; i + 1 < axis.ends.size(); ++i) axis.middles.push_back(0.5 * (axis.ends[i] + axis.ends[i + 1]));
     const std::size_t parts = 2 * axis.middles.size();
     for (std::size_t k = 0, i = 0; k < parts; ++k) {
@@ -216,17 +218,17 @@ Patches::Axis Patches::axis(std::vector<double> ends, bool closed) {
     return axis;
 }
 
-// Joins pairs of cells; if the number is odd, the last three become one.
+// Joins pairs of cells, or fours of clusters; what is left over belongs to the last ones.
 Patches::Axis Patches::coarser(const Axis& fine) {
     std::vector<double> ends{fine.ends.front()};
     for (std::uint32_t i = 1; i < size_of(fine); ++i)
         if (coarser_cell(fine, i) != coarser_cell(fine, i - 1)) ends.push_back(fine.ends[i]);
     ends.push_back(fine.ends.back());
-    return axis(std::move(ends), fine.closed);
+    return axis(std::move(ends), fine.closed, fine.joined);
 }
 
 std::uint32_t Patches::coarser_cell(const Axis& axis, std::uint32_t cell) {
-    return std::min(cell / 2, std::max(size_of(axis) / 2, 1u) - 1);
+    return std::min(cell / axis.joined, std::max(size_of(axis) / axis.joined, 1u) - 1);
 }
 
 Patches::Neighbours Patches::neighbours(const Axis& axis, double x) {
@@ -252,6 +254,13 @@ std::vector<std::array<Vec3, 4>> Patches::quadrilaterals(std::uint32_t number) c
     const auto coordinates = [&](double x, double y) { return chart.uniform(patch.cell, Vec2(x, y) / double(along)); };
     const auto position = [&](double x, double y) { return chart.point(*geometry_, coordinates(x, y)).position; };
     std::vector<std::array<Vec3, 4>> found;
+    if (chart.clusters()) {
+        for (const std::uint32_t face : chart.clusters()->faces(patch.cell.s0, patch.cell.s1)) {
+            const auto [a, b, c] = corners_of(geometry_->shapes()[chart.shape()], face).at;
+            found.push_back({a, b, c, c});
+        }
+        return found;
+    }
     const auto add = [&](double x, double y) {
         found.push_back({position(x, y), position(x + 1.0, y), position(x + 1.0, y + 1.0), position(x, y + 1.0)});
     };
@@ -268,6 +277,10 @@ std::vector<std::array<Vec3, 4>> Patches::quadrilaterals(std::uint32_t number) c
 }
 
 Patches::Reading Patches::interpolate(const Place& p) const {
+    if (charts()[p.chart].clusters()) {
+        const std::uint32_t own = locate(p);
+        return {{own, own, own, own}, {1.0, 0.0, 0.0, 0.0}};
+    }
     const Grid& grid = grids_[p.chart];
     const Neighbours s = neighbours(grid.s, p.st.x), t = neighbours(grid.t, p.st.y);
     const std::uint32_t n = size_of(grid.s);

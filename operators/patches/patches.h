@@ -1,5 +1,5 @@
 // Surfaces cut into patches: the cells of a grid on each chart, finer towards its edges, and cut again along the outlines of what
-// touches the chart. Geometry only.
+// touches the chart. Where faces are smaller than patches, a patch is a cluster of them. Geometry only.
 #pragma once
 
 #include "operators/patches/atlas.h"
@@ -20,7 +20,7 @@ struct Patching {
 
 class Patches {
 public:
-    // Throws InputError if there are no surfaces, if there are instances of meshes, or if `patches` is 0.
+    // Throws InputError if there are no surfaces, or if `patches` is 0.
     Patches(const Geometry& geometry, const Patching& patching);
 
     // Patches twice as wide in both directions, if a chart has enough. point() must not be called on them.
@@ -34,8 +34,8 @@ public:
     std::uint32_t chart_number(std::uint32_t patch) const { return patches_[patch].chart; }
     const Chart& chart(std::uint32_t patch) const { return charts()[chart_number(patch)]; }
     std::uint32_t chart_of(const SurfacePoint& p) const { return atlas_.chart_of(p); }
-    // The larger of the numbers of cells along the two directions of a chart.
-    std::uint32_t cells_along(std::uint32_t chart) const { return std::max(size_of(grids_[chart].s), size_of(grids_[chart].t)); }
+    // The larger of the numbers of cells along the two directions of a chart; of clusters, the root of their number.
+    std::uint32_t cells_along(std::uint32_t chart) const;
 
     // The place of a point on its chart, which is the same for coarser patches.
     struct Place {
@@ -43,18 +43,26 @@ public:
         Vec2 st;
         Region region;
     };
+    // Of a position on a chart that is not of clusters.
     Place place(std::uint32_t chart, const Vec3& position) const {
         const Vec2 st = charts()[chart].coordinates(*geometry_, position);
         return {chart, st, footprints_[chart].empty() ? Region() : footprints_[chart].region(st, position)};
     }
-    Place place(const SurfacePoint& p) const { return place(chart_of(p), p.position); }
+    Place place(const SurfacePoint& p) const {
+        const std::uint32_t chart = chart_of(p);
+        if (charts()[chart].clusters()) return {chart, charts()[chart].coordinates(*geometry_, p), Region()};
+        return place(chart, p.position);
+    }
     std::uint32_t locate(const Place& p) const {
         return locate(p.chart, p.st, [&] { return p.region; });
     }
     std::uint32_t locate(const SurfacePoint& p) const {
-        const std::uint32_t chart = chart_of(p);
-        const Vec2 st = charts()[chart].coordinates(*geometry_, p.position);
-        return locate(chart, st, [&] { return footprints_[chart].region(st, p.position); });
+        const std::uint32_t number = chart_of(p);
+        const Chart& chart = charts()[number];
+        if (const FaceClusters* clusters = chart.clusters())
+            return locate(number, {clusters->place(p.primitive), 0.5}, [] { return Region(); });
+        const Vec2 st = chart.coordinates(*geometry_, p.position);
+        return locate(number, st, [&] { return footprints_[number].region(st, p.position); });
     }
     // Uniform by area for uniform u in [0, 1)².
     SurfacePoint point(std::uint32_t number, const Vec2& u) const {
@@ -69,7 +77,7 @@ public:
     std::vector<std::array<Vec3, 4>> quadrilaterals(std::uint32_t number) const;
 
     // Linear interpolation between the values at the patches' centres, extrapolated to the chart's edge: the value at a point is
-    // the sum of values times weights. There is no interpolation across charts.
+    // the sum of values times weights. There is no interpolation across charts, nor between clusters.
     struct Reading {
         std::array<std::uint32_t, 4> patch;
         std::array<double, 4> weight;
@@ -85,6 +93,7 @@ private:
         std::vector<std::uint32_t> first;   // lookup table: the first cell in each of equal parts of [0, 1]
         std::vector<double> next;           // start of the next cell; ∞ for the last cell, and two more ∞
         bool closed = false;                // periodic: the last cell is adjacent to the first
+        std::uint32_t joined = 2;           // cells that are one coarser cell
     };
     struct Grid {
         Axis s, t;
@@ -104,11 +113,12 @@ private:
         std::uint32_t low, high;
         double weight;  // of `high`
     };
+    Patches(const Geometry& geometry, const Patching& patching, const std::vector<ShapeArea>& areas);
     Patches(const Geometry& geometry, Atlas atlas, std::vector<Footprints> footprints)
         : geometry_(&geometry), atlas_(std::move(atlas)), footprints_(std::move(footprints)) {}
 
     static Axis axis(std::size_t cells, double grading, bool closed);
-    static Axis axis(std::vector<double> ends, bool closed);
+    static Axis axis(std::vector<double> ends, bool closed, std::uint32_t joined = 2);
     static Axis coarser(const Axis& axis);
     static std::uint32_t coarser_cell(const Axis& axis, std::uint32_t cell);
     static std::uint32_t size_of(const Axis& axis) { return static_cast<std::uint32_t>(axis.middles.size()); }

@@ -75,8 +75,9 @@ private:
             sampler.start(paths++);
             if (sampler.next() < kept_) {
                 const Patches::Place place = patches_.place(a.x);
-                found.ends.emplace_back(place.chart, glm::dot(a.x.normal, a.wi) > 0.0, place.st, static_cast<std::uint32_t>(bounce),
-                                        a.power / (kept_ * a.index * a.index));
+                found.ends.emplace_back(place.chart, glm::dot(a.x.normal, a.wi) > 0.0,
+                                        LinkRaster::spread(patches_.charts()[place.chart], place.st),
+                                        static_cast<std::uint32_t>(bounce), a.power / (kept_ * a.index * a.index));
             }
             const auto edge = edge_to_lens(scene_, 0, a.x, place_on_lens(scene_, sampler));
             if (!edge) return;

@@ -25,6 +25,13 @@ std::uint32_t gather_bits(std::uint32_t x) {
 
 }  // namespace
 
+Vec2 LinkRaster::spread(const Chart& chart, const Vec2& st) {
+    if (!chart.clusters()) return st;
+    constexpr double places = 1u << 2 * levels, along = 1u << levels;
+    const auto k = static_cast<std::uint32_t>(std::clamp(st.x * places, 0.0, places - 1.0));
+    return Vec2(gather_bits(k) + 0.5, gather_bits(k >> 1) + 0.5) / along;
+}
+
 // On a Morton curve over the chart's finest cells.
 std::uint32_t LinkRaster::place(const Vec2& st) {
     constexpr double n = 1u << levels;

@@ -28,11 +28,14 @@ public:
         End() = default;
         End(std::uint32_t chart, bool front, const Vec2& st, std::uint32_t bounce, const Rgb& power);
     };
+    // The coordinates by which ends and readings are named. Clusters of faces follow one another along s alone, and here along a
+    // Morton curve through the square, so that each quarter of a cell is a range of them.
+    static Vec2 spread(const Chart& chart, const Vec2& st);
     // Bounces 2 … N + 1, the last with all later ones.
     LinkRaster(const Patches& patches, std::vector<End> ends, int bounces);
 
-    // The incident radiance in bounce 2, 3, …, three floats each: mean over a cell, and over a cell of about four times the size. The
-    // two are the same only on a chart that is one patch.
+    // The incident radiance in bounce 2, 3, …, three floats each: mean over a cell, and over a cell of about four times the size.
+    // The two are the same only on a chart that is one patch.
     struct Reading {
         std::span<const float> fine, coarse;
     };

@@ -134,26 +134,38 @@ TEST(MeshInstances, DegenerateTrianglesAreLeftOutAndCounted) {
     }
 }
 
-TEST(MeshInstances, PatchesAndUniformPointsRefuseTooMany) {
+TEST(MeshInstances, UniformPointsRefuseTooMany) {
     const auto shared = std::make_shared<const SharedMesh>(icosphere(6));
     std::vector<Shape> shapes;
     for (int i = 0; i < 1300; ++i)
         shapes.emplace_back(MeshInstance(shared, glm::translate(Mat4(1.0), Vec3(3 * (i % 36), 3 * (i / 36), 0))));
     const Geometry geometry(std::move(shapes));
-    const auto refusal = [&](const auto& make) -> std::string {
-        try {
-            make();
-        } catch (const InputError& e) {
-            return e.what();
-        }
-        return "";
-    };
-    EXPECT_EQ(refusal([&] { const AreaSampler sampler(geometry); }),
-              "points on all surfaces need a list of the scene's 106496000 triangles; expected at most 100000000");
-    EXPECT_EQ(
-        refusal([&] { const Patches patches(geometry, Patching{}); }),
-        "the scene has meshes that are in memory once and seen several times, 106496000 triangles in all, and patches would hold "
-        "each of these; the methods walk, bidirectional and pointwise do without patches");
+    try {
+        const AreaSampler sampler(geometry);
+        FAIL();
+    } catch (const InputError& e) {
+        EXPECT_STREQ(e.what(), "points on all surfaces need a list of the scene's 106496000 triangles; expected at most 100000000");
+    }
+}
+
+// Patches are shared out by instance, and their clusters of faces are in memory once.
+TEST(MeshInstances, HavePatchesOfTheirOwn) {
+    const auto shared = std::make_shared<const SharedMesh>(icosphere(6));
+    std::vector<Shape> shapes;
+    for (int i = 0; i < 1300; ++i)
+        shapes.emplace_back(MeshInstance(shared, glm::rotate(glm::translate(Mat4(1.0), Vec3(3 * (i % 36), 3 * (i / 36), 0)),
+                                                             0.01 * i, glm::normalize(Vec3(1, 2, 3)))));
+    const Geometry geometry(std::move(shapes));
+    restart_peak_memory();
+    const double before = peak_memory();
+    const Patches patches(geometry, {.patches = 6000});
+    EXPECT_LE(peak_memory() - before, 20e6);
+    EXPECT_GE(patches.size(), 4 * 1300u);
+    EXPECT_LE(patches.size(), 6000u);
+    double area = 0.0;
+    for (std::uint32_t i = 0; i < patches.size(); ++i) area += patches.area(i);
+    EXPECT_NEAR(area, 1300 * geometry.area(0), 1e-9 * area);
+    for (std::uint32_t i = 0; i < patches.size(); i += 7) EXPECT_EQ(patches.locate(patches.point(i, Vec2(0.5))), i);
 }
 
 // A thousand instances of 1.3 million triangles take a few hundredths of the memory of the first.
