@@ -14,10 +14,9 @@ namespace neumann {
 namespace {
 
 constexpr std::uint64_t direct_light_stream = 0x726173746572ull;
-// Nodes per patch on average, of all fields and of K Le alone.
-constexpr double nodes_of_patch = 2.0, fine_nodes_of_patch = 24.0;
+// Nodes per patch on average, of all fields.
+constexpr double nodes_of_patch = 2.0;
 constexpr double most_nodes_along = 1024.0;
-constexpr std::uint32_t light_samples = 16;
 // Places on a part of a cluster from which lights are sampled.
 constexpr std::uint32_t places_of_part = 4;
 
@@ -137,7 +136,7 @@ NEUMANN_HOT Rgb light_at_node(const Geometry& geometry, const LightSampler& ligh
         if (cosine[count] > 0.0 && ++count == waiting.size()) look();
     }
     if (count > 0) look();
-    return sum * (inv_pi / light_samples);
+    return sum * (inv_pi / FieldRaster::light_samples);
 }
 
 }  // namespace

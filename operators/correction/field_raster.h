@@ -15,6 +15,10 @@ namespace neumann {
 
 class FieldRaster {
 public:
+    // Rays for K Le, about, for each side of a patch: light_samples of each node of the finer raster.
+    static constexpr std::uint32_t light_samples = 16, fine_nodes_of_patch = 24,
+                                   rays_of_facet = light_samples * fine_nodes_of_patch;
+
     // `fields` has the bounces 0 … N and the rest. Keeps references to the scene and to the space of `fields`.
     // Throws Stopped if `watch` stops it.
     FieldRaster(const Scene& scene, const DiffuseSides& sides, const FieldStack& fields, std::uint64_t seed,

@@ -32,6 +32,8 @@ constexpr std::uint32_t trial_replicates = 4;
 // the goal affords.
 constexpr std::uint64_t longer = 4;
 constexpr double part_of_render = 0.05;
+// Of the seconds, what a method may make ready for its pilot, and again for the render.
+constexpr double part_of_preparation = 1.0 / 12.0;
 // Pilots that are foretold to take up so much of that part of the seconds have room to take longer.
 constexpr double caution = 0.7;
 
@@ -45,6 +47,8 @@ constexpr double largest_known_error = 1.0;
 // where no other method takes less, and where these rays and those of the others' pilots are a small part of the render. (Of the
 // scenes in scenes/, 0.49 where they gain most; apps/manual/methods.md.)
 constexpr double work_of_guided = 0.4, rays_of_tables = 4.5e6;
+// Rays for the shared points of `corrected` in a pilot, however small its film is.
+constexpr double rays_of_points = 130'000.0;
 // Rays before the first sample are traced in order, without shading.
 constexpr double price_of_setup = 0.3;
 
@@ -146,12 +150,19 @@ public:
         return seconds_ / (pixels_of(scene_.film) * rays * price * pilot_.seconds_per_ray());
     }
 
-    // Removes the methods whose preparation leaves no time to their pilots; says which, and why.
+    // With what the methods that are able prepare, which may be foretold wrongly by a half.
+    double of_all(const std::vector<Candidate>& able) const {
+        double seconds = of_pilots();
+        for (const Candidate& candidate : able) seconds += 1.5 * preparation_of(candidate.method, scene_, pilot_).seconds;
+        return seconds;
+    }
+
+    // Removes the methods whose preparation takes too long; says which, and why.
     std::string leave_out(std::vector<Candidate>& able) const {
         std::string said;
         std::erase_if(able, [&](const Candidate& candidate) {
             const Preparation preparation = preparation_of(candidate.method, scene_, pilot_);
-            if (preparation.seconds <= 0.5 * of_pilots()) return false;
+            if (preparation.seconds <= part_of_preparation * seconds_) return false;
             said += fmt::format("; {} was left out: {}", name_of(candidate.method), describe(preparation));
             return true;
         });
@@ -163,8 +174,7 @@ public:
             const double walks = pixels_of(small_film(scene_.film, size.width)) * static_cast<double>(size.samples);
             double seconds = 0.0;
             for (const Candidate& candidate : able)
-                seconds += preparation_of(candidate.method, scene_, pilot_).seconds +
-                           walks * pilot_.seconds_per_walk(bounces_) * candidate.price;
+                seconds += walks * pilot_.seconds_per_walk(bounces_) * candidate.price + seconds_of_points(candidate.method);
             return seconds > caution * of_pilots();
         };
         while (size.width > least_trial_width && takes_too_long()) size.width = std::max(size.width * 3 / 4, least_trial_width);
@@ -173,6 +183,10 @@ public:
     }
 
 private:
+    double seconds_of_points(const Method& method) const {
+        return std::holds_alternative<method::Corrected>(method) ? trial_replicates * rays_of_points * pilot_.seconds_per_ray()
+                                                                 : 0.0;
+    }
     static double pixels_of(const Film& film) { return static_cast<double>(film.crop_width) * film.crop_height; }
 
     const Scene& scene_;
@@ -190,7 +204,7 @@ struct Trials {
     bool is_known() const { return promise.errors[promise.best] <= largest_known_error; }
 };
 
-// Nothing if `watch` stops them before each has had one.
+// If `watch` stops them, of the methods that have had one; nothing if that is none but the walk.
 std::optional<Trials> try_methods(std::vector<Candidate> able, const Scene& small, const Goal& goal, double affordable,
                                   const Watch& watch) {
     const auto is_guided = [](const Candidate& c) { return std::holds_alternative<method::Guided>(c.method); };
@@ -202,8 +216,9 @@ std::optional<Trials> try_methods(std::vector<Candidate> able, const Scene& smal
     for (Trials trials{goal, {}, {}};; trials.goal.samples = *trials.goal.samples * longer) {
         auto& [goal_of_pilots, pilots, promise] = trials;
         pilots = make_pilots(able, small, goal_of_pilots, watch, false);
-        if (watch.stop()) return before;
+        if (watch.stop() && (before || pilots.size() < 2)) return before;
         promise = promise_of(pilots, affordable);
+        if (watch.stop()) return trials;
         before = trials;
         if (rays_of(pilots) + rays_of_tables <= most && promise.works[promise.best] > work_of_guided * promise.works.front()) {
             std::ranges::move(make_pilots(guided, small, goal_of_pilots, watch, true), std::back_inserter(pilots));
@@ -253,13 +268,14 @@ MethodChoice choose(const method::Auto& open, const Scene& scene, const Goal& go
         if (able.size() == 1) return {method::Walk{open}, "it needs no preparation" + left_out};
         size = time->size_of_trials(able);
     }
-    Watch of_pilots{.stop = [&] { return watch.stop() || (time && clock.seconds() > time->of_pilots()); }};
+    const double seconds_of_pilots = time ? time->of_all(able) : 0.0;
+    const Watch of_pilots{.stop = [&] { return watch.stop() || (time && clock.seconds() > seconds_of_pilots); }};
     const Scene small = scene.with(small_film(scene.film, size.width));
     const std::optional<Trials> trials = try_methods(able, small, goal_of_trial(goal, bounces, size), affordable, of_pilots);
     const MethodChoice interrupted{method::Walk{open},
                                    watch.stop() ? "the pilot was interrupted"
                                                 : "a pilot of the others would take more than a twentieth of the time" + left_out};
-    if (!trials) return interrupted;
+    if (!trials || watch.stop()) return interrupted;
     const std::vector<MethodPilot>& pilots = trials->pilots;
     const auto& [errors, works, best] = trials->promise;
 

@@ -75,7 +75,8 @@ std::vector<MethodPilot> make_pilots(const std::vector<Candidate>& methods, cons
     for (const Candidate& candidate : methods) {
         if (watch.stop()) break;
         try {
-            pilots.push_back(pilot_of(candidate, render(small, candidate.method, goal, {.stop = watch.stop})));
+            const BounceSeries series = render(small, candidate.method, goal, {.stop = watch.stop});
+            if (series.outcome != Outcome::interrupted) pilots.push_back(pilot_of(candidate, series));
         } catch (const InputError&) {
             // A scene without surfaces has no patches.
             if (pilots.empty() && !may_refuse) throw;

@@ -26,7 +26,7 @@ struct MethodPilot {
 };
 
 // Renders a scene with each method. Those that refuse it are left out; if not `may_refuse`, the first refuses for all and throws
-// InputError. Ends early if `watch` stops it.
+// InputError. Ends early if `watch` stops it, without the method that was interrupted.
 std::vector<MethodPilot> make_pilots(const std::vector<Candidate>& methods, const Scene& small, const Goal& goal,
                                      const Watch& watch, bool may_refuse);
 

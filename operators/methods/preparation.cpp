@@ -25,7 +25,12 @@ struct ShapeSides {
     double share = 0.0;  // of the area
     double sides = 0.0;  // that reflect or shine
 };
-using Count = std::vector<ShapeSides>;
+struct Count {
+    std::vector<ShapeSides> shapes;
+    double faces = 0.0;
+};
+// To join a face to its neighbours takes about as long as so many rays.
+constexpr double rays_of_face = 0.3;
 Count count_of(const Scene& scene) {
     Count count;
     double area = 0.0;
@@ -33,7 +38,8 @@ Count count_of(const Scene& scene) {
     for (const ShapeArea& shape : areas) area += shape.area;
     for (std::uint32_t shape = 0; shape < areas.size(); ++shape) {
         const bool front = scene.materials.at(shape, true) || scene.emitters.is_emitter(shape);
-        count.push_back(
+        count.faces += scene.geometry.primitive_count(shape);
+        count.shapes.push_back(
             {area > 0.0 ? areas[shape].area / area : 0.0, (front ? 1.0 : 0.0) + (scene.materials.at(shape, false) ? 1.0 : 0.0)});
     }
     return count;
@@ -41,7 +47,7 @@ Count count_of(const Scene& scene) {
 
 double facets_of(const Count& count, double patches) {
     double facets = 0.0;
-    for (const ShapeSides& shape : count)
+    for (const ShapeSides& shape : count.shapes)
         if (shape.share > 0.0) facets += shape.sides * std::max(patches * shape.share, 1.0);
     return facets;
 }
@@ -57,7 +63,8 @@ Needs needs_of(const method::Guided& guided, const Count& count) {
 }
 Needs needs_of(const method::Corrected& corrected, const Count& count) {
     const ApproximationSettings defaults;
-    const double rays = corrected.directions.value_or(defaults.rays), each = 2.0 * rays + CellDistribution::cells;
+    const double rays = corrected.directions.value_or(defaults.rays),
+                 each = 2.0 * rays + CellDistribution::cells + FieldRaster::rays_of_facet;
     const double facets = facets_of(count, static_cast<double>(corrected.patches.value_or(defaults.patches)));
     return {facets, each * facets};
 }
@@ -72,7 +79,8 @@ requires(!HasFields<M>) Needs needs_of(const M&, const Count&) { return {0.0, 0.
 
 Preparation preparation_of(const Method& method, const Count& count, const Pilot& pilot) {
     const Needs needs = std::visit([&](const auto& m) { return needs_of(m, count); }, method);
-    return {needs.facets, needs.rays, needs.rays * pilot.seconds_per_ray()};
+    if (needs.facets == 0.0) return {};
+    return {needs.facets, needs.rays, (needs.rays + rays_of_face * count.faces) * pilot.seconds_per_ray()};
 }
 
 }  // namespace

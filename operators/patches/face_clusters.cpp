@@ -1,5 +1,6 @@
 #include "operators/patches/face_clusters.h"
 
+#include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/parallel_invoke.h>
 #include <algorithm>
 #include <array>
@@ -101,22 +102,24 @@ FaceClusters::FaceClusters(const Geometry& geometry, std::uint32_t shape, std::v
     : faces_(std::move(faces)) {
     const Shape& mesh = geometry.shapes()[shape];
     std::vector<double> area_of(geometry.primitive_count(shape));
+    const auto for_faces = [&](const auto& f) { oneapi::tbb::parallel_for(std::size_t{0}, faces_.size(), f); };
+    for_faces([&](std::size_t i) { area_of[faces_[i]] = geometry.area(shape, faces_[i]); });
     double area = 0.0;
-    for (const std::uint32_t face : faces_) area += area_of[face] = geometry.area(shape, face);
+    for (const std::uint32_t face : faces_) area += area_of[face];
     const std::size_t n = std::clamp<std::size_t>(clusters, 1, faces_.size());
     const double width = std::sqrt(area / static_cast<double>(n));
 
-    std::vector<Item> items;
-    items.reserve(faces_.size());
-    for (const std::uint32_t face : faces_) {
+    std::vector<Item> items(faces_.size());
+    for_faces([&](std::size_t i) {
+        const std::uint32_t face = faces_[i];
         const auto [a, b, c] = corners_of(mesh, face).at;
         const Vec3 across = glm::cross(b - a, c - a), middle = ((a + b + c) / 3.0 - geometry.center()) / width,
                    normal = across * (weight_of_normals / std::max(glm::length(across), 1e-300));
         const auto f = [](double x) { return static_cast<float>(x); };
-        items.push_back({{f(middle.x), f(middle.y), f(middle.z), f(normal.x), f(normal.y), f(normal.z)},
-                         std::max(f(area_of[face] / area), 1e-30f),
-                         face});
-    }
+        items[i] = {{f(middle.x), f(middle.y), f(middle.z), f(normal.x), f(normal.y), f(normal.z)},
+                    std::max(f(area_of[face] / area), 1e-30f),
+                    face};
+    });
     std::vector<std::size_t> begin(n);
     order(items, n, {0, 0}, begin);
 

@@ -13,6 +13,18 @@ constexpr double tolerance = 1e-6;
 }  // namespace
 
 Facing::Facing(const Geometry& geometry) : geometry_(geometry) {
+    std::size_t points = 0;
+    for (const Shape& shape : geometry.shapes()) {
+        const auto* mesh = std::get_if<TriangleMesh>(&shape);
+        points += mesh ? 3 * mesh->triangles.size() : 1;
+    }
+    if (points > most_points) {
+        Bounds bounds;
+        for (const Shape& shape : geometry.shapes()) bounds.add(bounds_of(shape));
+        const Vec3 ends[] = {bounds.low, bounds.high};
+        for (unsigned i = 0; i < 8; ++i) balls_.push_back({{ends[i & 1u].x, ends[i >> 1u & 1u].y, ends[i >> 2u].z}, 0.0});
+        return;
+    }
     for (const Shape& shape : geometry.shapes()) {
         if (const auto* mesh = std::get_if<TriangleMesh>(&shape)) {
             for (const auto& triangle : mesh->triangles)
@@ -28,15 +40,6 @@ Facing::Facing(const Geometry& geometry) : geometry_(geometry) {
             balls_.push_back({bounds.center(), bounds.radius()});
         }
     }
-    if (balls_.size() <= most_points) return;
-    Vec3 low = balls_.front().center, high = low;
-    for (const Ball& ball : balls_) {
-        low = glm::min(low, ball.center - ball.radius);
-        high = glm::max(high, ball.center + ball.radius);
-    }
-    balls_.clear();
-    for (int corner = 0; corner < 8; ++corner)
-        balls_.push_back({{corner & 1 ? high.x : low.x, corner & 2 ? high.y : low.y, corner & 4 ? high.z : low.z}, 0.0});
 }
 
 bool Facing::nothing(const Chart& chart, bool front) const {

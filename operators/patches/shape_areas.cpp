@@ -1,5 +1,6 @@
 #include "operators/patches/shape_areas.h"
 
+#include <oneapi/tbb/parallel_reduce.h>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -20,14 +21,23 @@ bool is_similarity(const glm::dmat3& map, double scale) {
     return most <= written_digits * scale;
 }
 
+// The same sum for any number of threads.
 ShapeArea sum(std::uint32_t faces, const auto& area_of) {
-    ShapeArea result;
-    for (std::uint32_t face = 0; face < faces; ++face) {
-        const double area = area_of(face);
-        result.area += area;
-        result.largest_face = std::max(result.largest_face, area);
-    }
-    return result;
+    using Range = oneapi::tbb::blocked_range<std::uint32_t>;
+    constexpr std::uint32_t at_once = 4096;
+    return oneapi::tbb::parallel_deterministic_reduce(
+        Range(0, faces, at_once), ShapeArea(),
+        [&](const Range& range, ShapeArea result) {
+            for (std::uint32_t face = range.begin(); face < range.end(); ++face) {
+                const double area = area_of(face);
+                result.area += area;
+                result.largest_face = std::max(result.largest_face, area);
+            }
+            return result;
+        },
+        [](const ShapeArea& a, const ShapeArea& b) {
+            return ShapeArea{a.area + b.area, std::max(a.largest_face, b.largest_face)};
+        });
 }
 
 ShapeArea of_mesh(const TriangleMesh& mesh) {
