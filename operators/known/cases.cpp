@@ -36,7 +36,7 @@ const Cases& all_cases() {
     static const Cases all = [] {
         Cases cases;
         for (const auto group : {furnace_cases, microfacet_cases, sphere_cases, two_patch_cases, direct_light_cases, cube_cases,
-                                 mirror_cases, glass_cases, glowing_cases, open_cases, series_cases, spectrum_cases,
+                                 mirror_cases, glass_cases, glowing_cases, mesh_cases, open_cases, series_cases, spectrum_cases,
                                  acceleration_cases, rounding_cases, monte_carlo_cases, stiff_cases, extreme_cases})
             for (Case& known : group()) cases.push_back(std::move(known));
         return cases;

@@ -14,6 +14,7 @@ Cases cube_cases();
 Cases mirror_cases();
 Cases glass_cases();
 Cases glowing_cases();  // mirrors and sheets that emit, by every method
+Cases mesh_cases();     // bodies of many triangles, by methods with fields
 Cases open_cases();     // scenes that light leaves
 Cases series_cases();   // bounds on the series, and series that mislead them
 Cases spectrum_cases();

@@ -53,12 +53,13 @@ TEST_F(StressCommand, RefusesAPatternThatFitsNothing) {
     const Finished done = run({"stress", "--only", "cubes"});
     EXPECT_EQ(done.exit_code, 2);
     EXPECT_EQ(done.out, "");
-    EXPECT_EQ(done.err,
-              "--only cubes: no case has such a name; there are the groups furnace, microfacets, sphere, two-patches, "
-              "direct-light, cube, "
-              "mirrors, glass, glowing, open, series, spectrum, acceleration, rounding, monte-carlo, stiff, extreme, and --list "
-              "shows all "
-              "names\n");
+    EXPECT_EQ(
+        done.err,
+        "--only cubes: no case has such a name; there are the groups furnace, microfacets, sphere, two-patches, "
+        "direct-light, cube, "
+        "mirrors, glass, glowing, mesh, open, series, spectrum, acceleration, rounding, monte-carlo, stiff, extreme, and --list "
+        "shows all "
+        "names\n");
 }
 
 }  // namespace neumann::stress_command_test
