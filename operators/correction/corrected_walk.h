@@ -11,12 +11,14 @@
 //
 // g is unbounded where surfaces meet, so points carry only its part below c, min(g, c), and walks carry the rest: at z a walk goes
 // on with probability 1 − c/g, and what it then finds replaces f_k(z). A walk goes on in any case from surfaces that are not
-// diffuse, and to surfaces without fields: where there are none it is the plain walk (operators/walk/walk.h). All is linear in f
+// diffuse, and to surfaces without fields, and where shading normals look away from it, as g is 0 there: where there are no fields
+// it is the plain walk (operators/walk/walk.h). All is linear in f
 // and in the points' errors, so that nothing depends on the quality of either but the variance.
 #pragma once
 
 #include "core/base/hot.h"
 #include "operators/correction/approximation.h"
+#include "operators/correction/diffuse_sides.h"
 #include "operators/correction/shared_points.h"
 #include "operators/walk/ask_light.h"
 #include "operators/walk/continuation.h"
@@ -102,7 +104,9 @@ private:
         if (w.reads && points_ && w.asks_for > 0.0) {
             const SharedPoints::Chosen chosen = points_->choose(w.x.position, side.p.frame.n, w.clamp, sampler.next());
             w.point = chosen.point;
-            w.point_weight = w.beta * std::get<Diffuse>(*side.bsdf).reflectance(side.p) * (w.asks_for * chosen.weight);
+            const SharedPoints::Point& y = (*points_)[chosen.point];
+            if (glm::dot(y.shading, w.x.position - y.y.position) > 0.0)
+                w.point_weight = w.beta * std::get<Diffuse>(*side.bsdf).reflectance(side.p) * (w.asks_for * chosen.weight);
         }
         w.leave(side, sampled);
         return true;
@@ -112,7 +116,9 @@ private:
     bool goes_on(CorrectedWalker& w, Sampler& sampler, std::vector<float>& fields, const Found& found) const {
         const bool front = glm::dot(w.x.normal, w.wo) > 0.0;
         if (!w.reads || !fields_->covers(w.x, front)) return true;
-        const double g = coupling(w.from.position, w.from.normal, w.x.position, front ? w.x.normal : -w.x.normal);
+        const Vec3 normal = front ? w.x.normal : -w.x.normal;
+        if (fields_->is_smooth(w.x) && !see_alike(scene_.materials, w.x, normal, w.wo)) return true;
+        const double g = coupling(w.from.position, w.from.normal, w.x.position, normal);
         const double left = g > w.clamp ? 1.0 - w.clamp / g : 0.0;
         const bool on = left > 0.0 && (left * w.survival >= 1.0 || sampler.next() < left * w.survival);
         const Rgb weight = on ? w.beta * (1.0 - 1.0 / w.survival) : w.beta;

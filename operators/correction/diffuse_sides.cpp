@@ -14,13 +14,14 @@ Bsdf diffuse_like(const Bsdf& bsdf) {
 
 }  // namespace
 
-DiffuseSides::DiffuseSides(const Scene& scene) {
+DiffuseSides::DiffuseSides(const Scene& scene, Normals normals) {
     const auto shapes = static_cast<std::uint32_t>(scene.geometry.shapes().size());
     for (std::uint32_t shape = 0; shape < shapes; ++shape)
         for (const bool front : {true, false}) {
             const Bsdf* bsdf = scene.materials.at(shape, front);
             const auto* diffuse = bsdf ? std::get_if<Diffuse>(bsdf) : nullptr;
-            const bool has = diffuse && !is_black(diffuse->largest_albedo()) && !has_smooth_normals(scene.geometry.shapes()[shape]);
+            const bool has = diffuse && !is_black(diffuse->largest_albedo()) &&
+                             (normals == Normals::any || !has_smooth_normals(scene.geometry.shapes()[shape]));
             sides_.push_back(has);
             if (has) empty_ = false;
         }

@@ -26,6 +26,7 @@ FieldRaster::FieldRaster(const Scene& scene, const DiffuseSides& sides, const Fi
                          const Watch& watch)
     : space_(&fields.space()), stride_(fields.stride() - 3) {
     const Patches& patches = space_->patches();
+    for (const Shape& shape : scene.geometry.shapes()) is_smooth_.push_back(has_smooth_normals(shape));
     std::vector<std::uint32_t> patches_of(patches.charts().size()), first_of(patches_of);
     has_side_.resize(patches.charts().size());
     for (std::uint32_t patch = 0; patch < patches.size(); ++patch) {
@@ -172,7 +173,7 @@ void FieldRaster::fill_direct(const Scene& scene, std::uint64_t seed, const Watc
                     const Vec3 n = front ? p.normal : -p.normal;
                     const SurfaceSide side = scene.materials.side(p, n);
                     light += std::get<Diffuse>(*side.bsdf).reflectance(side.p) *
-                             light_at_node(scene.geometry, lights, p, n, i * each, (i + 1) * each, sampler, cast);
+                             light_at_node(scene.geometry, lights, p, side.p.frame.n, i * each, (i + 1) * each, sampler, cast);
                 }
                 for (int c = 0; c < 3; ++c)
                     fine_[3 * (first + column) + static_cast<std::size_t>(c)] = static_cast<float>(light[c]);

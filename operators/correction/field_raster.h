@@ -30,6 +30,8 @@ public:
 
     // Whether there are fields, and patches on which points may be drawn, on this side.
     bool covers(const SurfacePoint& p, bool front) const { return has_side_[space_->patches().chart_of(p)][front ? 0 : 1]; }
+    // Whether the normals at p may be interpolated.
+    bool is_smooth(const SurfacePoint& p) const { return is_smooth_[p.shape]; }
     // f_1(p), f_2(p), … on a side that has fields: three floats each, 3 size() in all.
     void read(const SurfacePoint& p, bool front, float* fields) const {
         const std::uint32_t number = space_->patches().chart_of(p);
@@ -93,6 +95,7 @@ private:
     const PatchSpace* space_;
     std::size_t stride_;
     std::vector<std::array<bool, 2>> has_side_;  // one per chart, as everything by chart below
+    std::vector<bool> is_smooth_;                // by shape
     std::vector<Grid> grids_, fine_grids_;
     std::vector<float> values_, fine_;
     std::uint64_t rays_ = 0;

@@ -78,7 +78,8 @@ SharedPoints PointMaker::make_set(std::uint64_t replicate, std::size_t set, cons
                 place.start(replicate);
                 const double choice = (number + place.next()) / points_;
                 const Approximation::Draw draw = fields_.draw(choice, place.next2());
-                points[number] = {draw.point, draw.normal, draw.inverse_density};
+                points[number] = {draw.point, draw.normal, scene_.materials.side(draw.point, draw.normal).p.frame.n,
+                                  draw.inverse_density};
                 work.light.push_back(Sampler(sampler_, light_net_, seed_ ^ light_stream, name));
                 work.walk.push_back(Sampler(sampler_, direction_net_, seed_ ^ walk_stream, name));
                 work.walk.back().start(replicate * samples_.directions);

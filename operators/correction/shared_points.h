@@ -14,6 +14,7 @@ public:
     struct Point {
         SurfacePoint y;
         Vec3 normal;             // of its side
+        Vec3 shading;            // of the shading side that this normal is on
         double inverse_density;  // 1 / (density with which it was drawn), scene units squared
     };
     static constexpr std::size_t candidates = 16;

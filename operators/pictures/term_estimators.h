@@ -115,7 +115,7 @@ public:
           size_(settings.replicate_size),
           sharing_(settings.sharing_pixels),
           direct_(scene, settings.walk.direct),
-          diffuse_(scene) {}
+          diffuse_(scene, Normals::geometric) {}
 
     void operator()(std::span<const CameraRay> rays, std::span<Sampler> samplers, Walkers&, TermSamples& result) const {
         walk_reusing(*scene_, direct_, diffuse_, settings_, size_, sharing_, rays, samplers, result,

@@ -104,6 +104,34 @@ INSTANTIATE_TEST_SUITE_P(Scenes, CorrectedFieldsSlow,
                              return name;
                          });
 
+// Bodies with interpolated normals in a room, one of few faces, whose shading normals are up to 20° off, and one of so many that
+// patches are clusters of them. Two sided: near the outlines both sides of the material are met from one side of a face.
+TEST(CorrectedFieldsSlow, AgreeWithTheWalkOnSmoothMeshes) {
+    const auto smooth = [](int level, const Vec3& center) {
+        TriangleMesh mesh = known::icosphere(level);
+        mesh.normals = mesh.vertices;
+        for (Vec3& vertex : mesh.vertices) vertex = center + 0.6 * vertex;
+        return mesh;
+    };
+    known::SceneMaker maker;
+    known::Surface body = known::matte(0.8);
+    body.two_sided = true;
+    maker.add(known::room({-1.5, -1, -1}, {1.5, 1, 1}), known::matte(0.6));
+    maker.add(known::parallelogram({-0.4, -0.4, 0.95}, {0, 0.8, 0}, {0.8, 0, 0}), known::glowing(0.2, 5.0));
+    maker.add(smooth(1, {-0.7, 0.1, -0.3}), body);
+    maker.add(smooth(4, {0.7, 0.2, -0.2}), body);
+    const Frame view(glm::normalize(Vec3(0, 1, -0.4)));
+    maker.parts.camera.to_world =
+        Mat4(glm::dvec4(view.s, 0.0), glm::dvec4(view.t, 0.0), glm::dvec4(view.n, 0.0), glm::dvec4(0, -0.95, 0.4, 1.0));
+    maker.parts.camera.fov = 1.6;
+    maker.parts.film = {16, 12, 0, 0, 16, 12};
+    const Scene scene = maker.make();
+    constexpr int bounces = 4;
+    const auto walk = sample(scene, walk_settings(bounces, 32, fixed_seed, 0.5), 512);
+    const auto corrected = sample(scene, corrected_settings(scene, bounces, 8, fixed_seed + 1, 0.5), 256);
+    expect_same_means(walk, corrected, bounces + 2, 0.02);
+}
+
 // Nothing depends on the quality of the fields: from a ray for each of a few patches, 170% off.
 TEST(CorrectedFieldsSlow, AreUnbiasedFromBadFields) {
     const Scene scene = stock_scene("mitsuba-cornell", 8);
