@@ -33,9 +33,8 @@ struct Count {
 constexpr double rays_of_face = 0.3;
 Count count_of(const Scene& scene) {
     Count count;
-    double area = 0.0;
     const std::vector<ShapeArea> areas = shape_areas(scene.geometry);
-    for (const ShapeArea& shape : areas) area += shape.area;
+    const double area = sum_of_areas(areas);
     for (std::uint32_t shape = 0; shape < areas.size(); ++shape) {
         const bool front = scene.materials.at(shape, true) || scene.emitters.is_emitter(shape);
         count.faces += scene.geometry.primitive_count(shape);

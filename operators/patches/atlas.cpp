@@ -82,16 +82,10 @@ private:
     bool keeps_few_ = true;
 };
 
-double total(const std::vector<ShapeArea>& areas) {
-    double sum = 0.0;
-    for (const ShapeArea& shape : areas) sum += shape.area;
-    return sum;
-}
-
 }  // namespace
 
 Atlas::Atlas(const Geometry& geometry, const std::vector<ShapeArea>& areas, std::size_t patches) {
-    const double patch_area = total(areas) / static_cast<double>(std::max<std::size_t>(patches, 1));
+    const double patch_area = sum_of_areas(areas) / static_cast<double>(std::max<std::size_t>(patches, 1));
     const SmallFaces small(geometry, areas, patch_area, patches);
     for (std::uint32_t shape = 0; shape < areas.size(); ++shape) {
         const auto chart = static_cast<std::uint32_t>(charts_.size());

@@ -12,13 +12,6 @@ namespace neumann {
 
 namespace {
 
-double total_area(const std::vector<ShapeArea>& areas) {
-    double sum = 0.0;
-    for (const ShapeArea& shape : areas) sum += shape.area;
-    if (sum == 0.0) throw InputError("the scene has no surfaces, so there is nothing to cut into patches");
-    return sum;
-}
-
 // How charts are cut into cells. `divides`: also those that are smaller than a cell, into four, so that coarser cells differ from
 // finer ones on every chart.
 struct Cutting {
@@ -76,7 +69,8 @@ Patches::Patches(const Geometry& geometry, const Patching& patching) : Patches(g
 Patches::Patches(const Geometry& geometry, const Patching& patching, const std::vector<ShapeArea>& areas)
     : geometry_(&geometry), atlas_(geometry, areas, patching.patches) {
     if (patching.patches == 0) throw InputError("0 patches: at least one is needed");
-    const double area = total_area(areas);
+    const double area = sum_of_areas(areas);
+    if (area == 0.0) throw InputError("the scene has no surfaces, so there is nothing to cut into patches");
     const Cutting cutting = choose_cutting(charts(), area, patching.patches);
     const auto cells = static_cast<double>(count_cells(charts(), cutting));
     footprints_ = find_footprints(geometry, charts(), near * std::sqrt(area / cells));

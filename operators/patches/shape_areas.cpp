@@ -72,4 +72,10 @@ std::vector<ShapeArea> shape_areas(const Geometry& geometry) {
     return areas;
 }
 
+double sum_of_areas(const std::vector<ShapeArea>& shapes) {
+    double sum = 0.0;
+    for (const ShapeArea& shape : shapes) sum += shape.area;
+    return sum;
+}
+
 }  // namespace neumann

@@ -16,5 +16,6 @@ struct ShapeArea {
 };
 
 std::vector<ShapeArea> shape_areas(const Geometry& geometry);
+double sum_of_areas(const std::vector<ShapeArea>& shapes);
 
 }  // namespace neumann
