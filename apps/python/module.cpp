@@ -2,14 +2,31 @@
 
 #include <pybind11/stl.h>
 
+namespace {
+
+// As pybind11::register_exception, with any bytes in the message (apps/python/text.h).
+template <class Error>
+void register_error(pybind11::module_& m, const char* name, PyObject* base, const char* doc) {
+    static const pybind11::exception<Error> type(m, name, base);
+    type.attr("__doc__") = doc;
+    pybind11::register_exception_translator([](std::exception_ptr thrown) {
+        try {
+            if (thrown) std::rethrow_exception(thrown);
+        } catch (const Error& e) {
+            PyErr_SetObject(type.ptr(), pybind11::cast(std::string(e.what())).ptr());
+        }
+    });
+}
+
+}  // namespace
+
 PYBIND11_MODULE(_neumann, m) {
     using namespace neumann;
     m.doc() = "The compiled part of neumann; see the package neumann.";
     m.attr("version") = NEUMANN_VERSION;
-    py::register_exception<InputError>(m, "InputError", PyExc_ValueError).doc() =
-        "The scene, a file or an argument is wrong: 'file:line:column: what is wrong, what was expected'.";
-    py::register_exception<RunError>(m, "RunError", PyExc_RuntimeError).doc() =
-        "Something failed while running, such as a disk that is full.";
+    register_error<InputError>(m, "InputError", PyExc_ValueError,
+                               "The scene, a file or an argument is wrong: 'file:line:column: what is wrong, what was expected'.");
+    register_error<RunError>(m, "RunError", PyExc_RuntimeError, "Something failed while running, such as a disk that is full.");
 
     const auto without_lock = py::call_guard<py::gil_scoped_release>();
     py::class_<Job>(m, "Job", "Work that goes on in the background.")

@@ -4,6 +4,7 @@
 #include "apps/command_line/commands.h"
 #include "apps/commands/patch_scene.h"
 #include "apps/python/job.h"
+#include "apps/python/text.h"
 #include "core/image/pixel_estimate.h"
 #include "core/reader/changed_scene.h"
 #include "core/scene/scene.h"

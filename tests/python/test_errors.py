@@ -1,6 +1,8 @@
 """What is wrong is an exception, with the text that the command prints."""
 
+import os
 import unittest
+from pathlib import Path
 
 import neumann
 from support import Case, command, cornell, furnace, scene_file
@@ -28,6 +30,26 @@ class Errors(Case):
         self.expect_as_command(lambda: neumann.load(self.folder / "none.xml"), "render", self.folder / "none.xml")
         box = scene_file("cornell-box")
         self.expect_as_command(lambda: neumann.load(box, colour="red"), "render", box, "-D", "colour=red")
+
+    def test_names_of_bytes(self):
+        # Names of files are bytes: what is said of them, while it runs too, holds them as os.fsdecode makes them.
+        name = os.fsdecode(b"m\xfcll.xml")
+        path = self.folder / name
+        with self.assertRaisesRegex(neumann.InputError, name):
+            neumann.load(path)
+        path.write_text('<scene version="3.0.0"><shape type="sphre"/></scene>')
+        with self.assertRaisesRegex(neumann.InputError, name + r":1:31: shape type 'sphre'"):
+            neumann.load(path)
+        with self.assertRaisesRegex(neumann.InputError, "-D x=\udcfc: nothing"):
+            neumann.load(scene_file("cornell-box"), x=os.fsdecode(b"\xfc"))
+        path.write_text(Path(scene_file("furnace")).read_text())
+        scene = neumann.load(path, res=8)
+        self.assertIn(name, repr(scene.matrices(patches=6)))
+        folder = self.folder / os.fsdecode(b"f\xfcr")
+        job = scene.render(spp=1, quiet=True)._source.rendering.save(os.fsencode(folder))
+        while not job.wait(0.1):
+            pass
+        self.assertIn(folder.name, job.progress()[0])
 
     def test_lenient(self):
         path = self.folder / "odd.xml"
