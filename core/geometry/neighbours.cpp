@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -38,25 +39,59 @@ bool holds(const Bounds& box, const Vec3& p) {
     return glm::all(glm::lessThanEqual(box.low, p)) && glm::all(glm::lessThanEqual(p, box.high));
 }
 
-bool share_corner(const DoubleFaces& faces, const Face& a, const Face& b) {
-    if (!faces.is_triangle(a) || !faces.is_triangle(b)) return false;
-    const auto of_a = faces.vertices(a), of_b = faces.vertices(b);
-    return std::find_first_of(of_a.begin(), of_a.end(), of_b.begin(), of_b.end()) != of_a.end();
+bool share_corner(const std::array<Vec3, 3>& a, const std::array<Vec3, 3>& b) {
+    return std::find_first_of(a.begin(), a.end(), b.begin(), b.end()) != a.end();
 }
 
-// For two triangles that share a corner: whether b continues a beyond one of its edges without a sharp bend. Then a displaced ray
-// that starts beside a, or ends on either of them, is still on the right side of both.
-bool continues(const DoubleFaces& faces, const Face& a, const Face& b) {
-    constexpr double bend = 0.5, rounding = 1e-12;
-    const TriangleOfFace of_a = faces.triangle(a), of_b = faces.triangle(b);
-    const Triangle &t = *of_a, &other = *of_b;
-    if (std::abs(glm::dot(t.normal(), other.normal())) < bend) return false;
-    Vec3 largest(-std::numeric_limits<double>::infinity());  // of b's corners, the weights in a
-    for (const Vec3& corner : faces.vertices(b)) {
+// Of the corners of another triangle, the largest weight of each corner of t: below 0, it lies beyond the edge across.
+Vec3 largest_weights(const Triangle& t, const std::array<Vec3, 3>& corners) {
+    Vec3 largest(-std::numeric_limits<double>::infinity());
+    for (const Vec3& corner : corners) {
         const Vec2 w = t.weights(corner);
         largest = glm::max(largest, Vec3(w.x, w.y, 1.0 - w.x - w.y));
     }
-    return std::min({largest.x, largest.y, largest.z}) <= rounding;
+    return largest;
+}
+
+// Whether an edge of t parts it from the other triangle, by more than this distance.
+bool is_apart(const Triangle& t, const Vec3& largest_weights_of_other, double distance) {
+    const Vec3& w = largest_weights_of_other;
+    return w.x < -distance * glm::length(t.dual1()) || w.y < -distance * glm::length(t.dual2()) ||
+           w.z < -distance * glm::length(t.dual1() + t.dual2());
+}
+
+// For a triangle that shares a corner with t: whether it continues t beyond an edge without a sharp bend. Then a displaced ray that
+// starts beside t, or ends on either of them, is still on the right side of both.
+bool continues(const Triangle& t, const std::array<Vec3, 3>& corners, const Vec3& largest_weights_of_corners) {
+    constexpr double bend = 0.5, rounding = 1e-12;
+    const Vec3& w = largest_weights_of_corners;
+    return std::min({w.x, w.y, w.z}) <= rounding &&
+           std::abs(glm::dot(t.normal(), Triangle::normal(corners[0], corners[1], corners[2]))) >= bend;
+}
+
+// What a triangle is to another one, t, which has these corners.
+enum class Relation { apart, continues, joined, other };
+// `distance`: from which on it is apart. (At sharp corners, DoubleFaces::is_near() takes more than a distance.)
+Relation relation_to(const Triangle& t, const std::array<Vec3, 3>& corners_of_t, const std::array<Vec3, 3>& corners,
+                     double distance) {
+    const Vec3 largest = largest_weights(t, corners);
+    if (is_apart(t, largest, 4.0 * distance)) return Relation::apart;
+    if (!share_corner(corners_of_t, corners)) return Relation::other;
+    return continues(t, corners, largest) ? Relation::continues : Relation::joined;
+}
+
+// Whether Triangle::is_near_edge() may say so once the triangle is examined.
+bool may_be_near_edge(const Vec2& w, double cosine) {
+    const float widest_strip = std::nextafter(static_cast<float>(along_edges), 1.0f);
+    return std::min({w.x, w.y, 1.0 - w.x - w.y}) * std::abs(cosine) < widest_strip;
+}
+
+// One point in four, by its bits. To examine a face takes as long as some twenty questions what is near a point, and of a fine
+// mesh most faces are hit a few times; so a face is examined when it is first asked for such a point.
+bool is_picked(const Vec3& p) {
+    std::uint64_t bits = 0;
+    for (int axis = 0; axis < 3; ++axis) bits = (bits ^ std::bit_cast<std::uint64_t>(p[axis])) * 0x9e3779b97f4a7c15ull;
+    return bits >> 62 == 0;
 }
 
 }  // namespace
@@ -151,12 +186,15 @@ Neighbours::State Neighbours::state_of_round(const Face& f) const {
     return state.load(std::memory_order_acquire);
 }
 
-double Neighbours::reach_of_close_points(const Face& f, const Face& other) const {
+double Neighbours::reach_of_close_points(const Face& f, const Face& other, double aside) const {
     const double errors = faces_.error(f) + faces_.error(other);
-    const bool joined = share_corner(faces_, f, other);
-    if (joined && continues(faces_, f, other)) return 0.0;
+    Relation relation = Relation::other;
+    if (const TriangleOfFace t = faces_.triangle(f); t && faces_.is_triangle(other))
+        relation = relation_to(*t, faces_.vertices(f), faces_.vertices(other), reach_in_errors * errors + aside);
+    if (relation == Relation::apart || relation == Relation::continues) return 0.0;
     const Bounds bounds = faces_.bounds(f);
-    const bool touch = joined || close_region(faces_, f, other, double_rounding(bounds.low, largest_component(bounds.high)));
+    const bool touch =
+        relation == Relation::joined || close_region(faces_, f, other, double_rounding(bounds.low, largest_component(bounds.high)));
     return touch ? errors : reach(f, other);
 }
 
@@ -169,7 +207,7 @@ bool Neighbours::is_near_other(const SurfacePoint& p, double aside) const {
         const Bounds bounds = faces_.bounds(other);
         const double most = reach(p.error + faces_.error(other), std::min(size, 2.0 * bounds.radius())) + aside;
         if (!holds(bounds.grown(most), p.position) || !faces_.is_near(other, p.position, most)) return false;
-        const double reach = reach_of_close_points(f, other);
+        const double reach = reach_of_close_points(f, other, aside);
         return reach > 0.0 && faces_.is_near(other, p.position, reach + aside);
     };
     const auto may_be_near = [&](const Large& large) {
@@ -184,7 +222,10 @@ bool Neighbours::is_close(const SurfacePoint& p) const {
     if (keeps_nothing_) return is_near_other(p, 0.0);
     if (const TriangleOfFace t = faces_.triangle(f)) {
         const Vec2 w = t->weights(p.position);
-        if (!t->is_examined()) examine(f);
+        if (!t->is_examined()) {
+            if (!may_be_near_edge(w, 1.0) && !is_picked(p.position)) return is_near_other(p, 0.0);
+            examine(f);
+        }
         if (t->is_crowded()) return is_near_other(p, 0.0);
         if (t->is_clear(w)) return false;
         if (t->is_near_edge(w)) return around(p).size() > 1;
@@ -200,8 +241,12 @@ bool Neighbours::may_hide(const SurfacePoint& p, double cosine) const {
     const double aside = largest_error_ / std::abs(cosine);
     if (keeps_nothing_) return grazes || is_near_other(p, aside);
     if (const TriangleOfFace t = faces_.triangle(f)) {
-        if (t->is_crowded()) return grazes || is_near_other(p, aside);
         const Vec2 w = t->weights(p.position);
+        if (!t->is_examined()) {
+            if (!may_be_near_edge(w, cosine) && !grazes && !is_picked(p.position)) return is_near_other(p, aside);
+            examine(f);
+        }
+        if (t->is_crowded()) return grazes || is_near_other(p, aside);
         if (t->is_clear(w, cosine)) return false;
         if (t->is_near_edge(w, cosine)) return true;
     } else if (const State state = state_of_round(f); state != State::not_clear) {
@@ -213,17 +258,30 @@ bool Neighbours::may_hide(const SurfacePoint& p, double cosine) const {
 Neighbours::Others Neighbours::others_around(const Face& f) const {
     const Bounds bounds = faces_.bounds(f);
     const Vec3 center = bounds.center();
-    const double distance =
-        bounds.radius() + reach_in_errors * (faces_.error(f) + error_of_rest_) + largest_error_ / Triangle::grazing;
+    const double near = reach_in_errors * (faces_.error(f) + error_of_rest_) + largest_error_ / Triangle::grazing,
+                 distance = bounds.radius() + near;
+    const TriangleOfFace t = faces_.triangle(f);
+    const std::array<Vec3, 3> corners = t ? faces_.vertices(f) : std::array<Vec3, 3>{};
     std::vector<Face> others;
     for (const Large& large : large_) others.push_back(large.face);
+    std::vector<Face> within;
     if (error_of_rest_ > 0.0 && caster_->any_near(center, distance, [&](const Face& other) {
-            const Bounds of_other = faces_.bounds(other);
-            const Vec3 nearest = glm::clamp(center, of_other.low, of_other.high);
-            if (glm::length(nearest - center) <= distance) others.push_back(other);
-            return others.size() - large_.size() > crowd;
+            // In a fine mesh most are told by their corners, without the rest of their data.
+            const bool by_corners = t && faces_.is_triangle(other);
+            const std::array<Vec3, 3> of_other = by_corners ? faces_.vertices(other) : std::array<Vec3, 3>{};
+            Bounds box = by_corners ? Bounds() : faces_.bounds(other);
+            if (by_corners)
+                for (const Vec3& corner : of_other) box.add(corner);
+            if (glm::length(glm::clamp(center, box.low, box.high) - center) > distance) return false;
+            within.push_back(other);
+            if (by_corners) {
+                const Relation relation = relation_to(*t, corners, of_other, near);
+                if (relation == Relation::apart || relation == Relation::continues) return within.size() > crowd;
+            }
+            others.push_back(other);
+            return within.size() > crowd;
         }))
-        return {{others.begin() + static_cast<std::ptrdiff_t>(large_.size()), others.end()}, true};
+        return {std::move(within), true};
     std::sort(others.begin(), others.end());
     others.erase(std::unique(others.begin(), others.end()), others.end());
     return {std::move(others)};
@@ -239,7 +297,8 @@ void Neighbours::mark_near_others(const Face& f, int column, int row, int square
     const double error = faces_.error(f), aside = largest_error_ / Triangle::grazing;
     const auto may_be_near = [&](const Face& other, double error_of_other, const Bounds& of_other) {
         const double most = reach_in_errors * (error + error_of_other) + aside;
-        return !(other == f) && !intersection(bounds.grown(most), of_other).is_empty() && reach_of_close_points(f, other) > 0.0;
+        return !(other == f) && !intersection(bounds.grown(most), of_other).is_empty() &&
+               reach_of_close_points(f, other, aside) > 0.0;
     };
     std::size_t asked = 0;
     const bool near =
@@ -293,7 +352,7 @@ void Neighbours::examine(const Face& f) const {
         if (other == f) continue;
         const double errors = error + faces_.error(other);
         if (intersection(bounds.grown(reach_in_errors * errors + aside), faces_.bounds(other)).is_empty()) continue;
-        const double near = reach_of_close_points(f, other);
+        const double near = reach_of_close_points(f, other, aside);
         if (near == 0.0) continue;
         const auto steep = close_region(faces_, f, other, near + largest_error_);
         if (steep && steep->from_corner <= along_edges) {

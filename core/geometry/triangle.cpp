@@ -10,6 +10,8 @@ static_assert(sizeof(Triangle) == 128);
 
 namespace {
 
+constexpr Vec3 no_normal(0.0, 0.0, 1.0);  // of triangles without area
+
 struct Across {
     Vec3 product;  // cross product of two edges: along the normal, with twice the area as its length
     double longest;
@@ -33,7 +35,7 @@ Triangle::Triangle(const Vec3& a, const Vec3& b, const Vec3& c, double error) : 
     const double twice = glm::length(product);
     // An instance's, thinner than doubles can tell where it is placed: no ray hits it in double.
     if (!(twice > 0.0)) {
-        normal_ = {0.0, 0.0, 1.0};
+        normal_ = no_normal;
         dual1_ = dual2_ = Vec3(0.0);
         rounding_ = 1.0f;
         margin_ = 0.0f;
@@ -49,6 +51,12 @@ Triangle::Triangle(const Vec3& a, const Vec3& b, const Vec3& c, double error) : 
 }
 
 double Triangle::area(const Vec3& a, const Vec3& b, const Vec3& c) { return 0.5 * glm::length(across(a, b, c).product); }
+
+Vec3 Triangle::normal(const Vec3& a, const Vec3& b, const Vec3& c) {
+    const Vec3 product = across(a, b, c).product;
+    const double length = glm::length(product);
+    return length > 0.0 ? product / length : no_normal;
+}
 
 Vec3 Triangle::at_edge(double u, double v, const Edges& edges) const {
     const double margin = margin_, w = std::max(1.0 - u - v, margin);

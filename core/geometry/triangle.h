@@ -41,6 +41,7 @@ public:
     const Vec3& dual2() const { return dual2_; }
     double error() const { return error_; }
     static double area(const Vec3& a, const Vec3& b, const Vec3& c);
+    static Vec3 normal(const Vec3& a, const Vec3& b, const Vec3& c);
 
     // The intersection of a ray with the triangle's plane, in double.
     struct Meeting {
