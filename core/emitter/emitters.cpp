@@ -123,6 +123,16 @@ double Emitters::distant_density(std::size_t index, const Vec3& x, const Vec3& w
         delta_light(index));
 }
 
+std::optional<Vec3> Emitters::position_of_distant(std::size_t index) const {
+    if (lights_.environment && index == 0) return std::nullopt;
+    return std::visit(
+        [](const auto& light) -> std::optional<Vec3> {
+            if constexpr (requires { light.position(); }) return light.position();
+            return std::nullopt;
+        },
+        delta_light(index));
+}
+
 double Emitters::distant_irradiance(std::size_t index, const Vec3& x) const {
     if (lights_.environment && index == 0) return pi * brightness(*lights_.environment);
     return mean_component(beam(delta_light(index), x, surroundings_).irradiance);

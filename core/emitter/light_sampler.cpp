@@ -39,6 +39,9 @@ Vec3 center_of(const Disk& disk) { return disk.center; }
 Vec3 center_of(const Cylinder& cylinder) { return cylinder.center(); }
 Vec3 center_of(const MeshInstance& instance) { return instance.bounds().center(); }
 
+// Of a point in all directions, and of a round body: the irradiance at distance 1 in its power divided by π.
+constexpr double of_all_sides = 0.25;
+
 }  // namespace
 
 LightSampler::LightSampler(const Geometry& geometry, const Emitters& emitters, LightChoice choice, LightPlace place)
@@ -59,6 +62,40 @@ LightSampler::LightSampler(const Geometry& geometry, const Emitters& emitters, L
     for (std::uint32_t shape = 0; shape < geometry.shapes().size(); ++shape)
         density_of_shape_.push_back(share[shape] == 0.0 ? 0.0
                                                         : (choice == LightChoice::all ? 1.0 : share[shape]) / emitters.area(shape));
+    if (choice == LightChoice::tree) tree_ = make_tree();
+}
+
+LightTree LightSampler::make_tree() {
+    std::vector<LightTree::Light> lights(table_.size());
+    for (std::size_t i = 0; i < table_.parts().size(); ++i) {
+        const Part& part = table_.parts()[i];
+        const Shape& shape = geometry_->shapes()[part.shape];
+        LightTree::Light& light = lights[i];
+        light.power = emitters_->powers()[part.shape] / emitters_->area(part.shape) * table_.area(part);
+        if (mesh_of(shape)) {
+            const TriangleCorners corners = corners_of(shape, part.primitive);
+            light.bounds = corners.bounds();
+            if (part.is_rectangle()) light.bounds.add(corners_of(shape, part.primitive + 1).bounds());
+            light.axis = Triangle::normal(corners.at[0], corners.at[1], corners.at[2]);
+            light.has_normal = true;
+        } else {
+            light.bounds = bounds_of(shape);
+            const auto* disk = std::get_if<Disk>(&shape);
+            light.has_normal = disk;
+            if (disk)
+                light.axis = disk->normal;
+            else
+                light.power *= of_all_sides;
+        }
+    }
+    for (std::size_t i = table_.parts().size(); i < table_.size(); ++i)
+        if (const auto place = emitters_->position_of_distant(table_.distant(i))) {
+            lights[i].bounds.add(*place);
+            lights[i].power = of_all_sides * emitters_->powers()[geometry_->shapes().size() + table_.distant(i)];
+        } else {
+            everywhere_.push_back(i);
+        }
+    return LightTree(lights);
 }
 
 LightSample LightSampler::on_distant(std::size_t index, double probability, const Vec3& x, const Vec2& uv) const {
@@ -128,27 +165,66 @@ LightSample LightSampler::sample_by_contribution(const Receiver& x, const Vec2& 
     return on_part(chosen, share / all / table_.area(table_.parts()[chosen]), x, left);
 }
 
+std::vector<double> LightSampler::importances(const Receiver& x) const {
+    std::vector<double> sums{tree_.importance(x.position, x.normal)};
+    for (const std::size_t light : everywhere_)
+        sums.push_back(sums.back() + emitters_->distant_irradiance(table_.distant(light), x.position));
+    return sums;
+}
+
+LightSample LightSampler::sample_by_tree(const Receiver& x, const Vec2& uv) const {
+    const std::vector<double> sums = importances(x);
+    const double all = sums.back(), u = uv.x * all;
+    if (!(all > 0.0)) return {};
+    const auto found = std::upper_bound(sums.begin(), sums.end() - 1, u);
+    const double below = found == sums.begin() ? 0.0 : *(found - 1), share = *found - below;
+    if (!(share > 0.0)) return {};
+    const double left = std::min((u - below) / share, 0x1.fffffffffffffp-1);
+    if (found != sums.begin())
+        return on_distant(table_.distant(everywhere_[static_cast<std::size_t>(found - sums.begin()) - 1]), share / all, x.position,
+                          Vec2(left, uv.y));
+    const auto chosen = tree_.choose(x.position, x.normal, left);
+    if (!chosen) return {};
+    const double probability = share / all * chosen->probability;
+    if (table_.is_distant(chosen->light))
+        return on_distant(table_.distant(chosen->light), probability, x.position, Vec2(chosen->left, uv.y));
+    return on_part(chosen->light, probability / table_.area(table_.parts()[chosen->light]), x, Vec2(chosen->left, uv.y));
+}
+
 double LightSampler::pdf_in_general(const Receiver& x, const Vec3& w, const SurfacePoint& y) const {
-    const bool by_contribution = choice_ == LightChoice::contribution;
     if (y.is_infinite()) {
         if (empty() || !emitters_->has_environment()) return 0.0;
-        return probability_of_distant(0, x.position) * emitters_->environment_pdf(w);
+        return probability_of_distant(0, x) * emitters_->environment_pdf(w);
     }
     if (density_of_shape_[y.shape] == 0.0) return 0.0;
     const Part part = table_.part_at(y);
-    const double area = table_.area(part);
-    const double probability =
-        by_contribution ? contribution(part, x.position) / contributions(x.position).back() : density_of_shape_[y.shape] * area;
+    const double area = table_.area(part), probability = probability_of_part(part, area, x);
     if (!(probability > 0.0)) return 0.0;
     if (const auto polygon = projected(part, x)) return probability * polygon->pdf(w);
     if (const double angle = sampled_solid_angle(part, x.position); angle > 0.0) return probability / angle;
     return probability / area * per_solid_angle(y.position - x.position, y.normal, w);
 }
 
-double LightSampler::probability_of_distant(std::size_t distant, const Vec3& x) const {
+double LightSampler::probability_of_part(const Part& part, double area, const Receiver& x) const {
+    if (choice_ == LightChoice::contribution) return contribution(part, x.position) / contributions(x.position).back();
+    if (choice_ != LightChoice::tree) return density_of_shape_[part.shape] * area;
+    const std::vector<double> sums = importances(x);
+    return sums.front() > 0.0 ? sums.front() / sums.back() *
+                                    tree_.probability(static_cast<std::uint32_t>(table_.index_of(part)), x.position, x.normal)
+                              : 0.0;
+}
+
+double LightSampler::probability_of_distant(std::size_t distant, const Receiver& x) const {
     if (choice_ == LightChoice::all) return 1.0;
-    if (choice_ == LightChoice::contribution) return emitters_->distant_irradiance(distant, x) / contributions(x).back();
-    return table_.probability(table_.parts().size() + distant);
+    if (choice_ == LightChoice::contribution)
+        return emitters_->distant_irradiance(distant, x.position) / contributions(x.position).back();
+    const std::size_t light = table_.parts().size() + distant;
+    if (choice_ != LightChoice::tree) return table_.probability(light);
+    const std::vector<double> sums = importances(x);
+    if (!(sums.back() > 0.0)) return 0.0;
+    if (std::ranges::find(everywhere_, light) != everywhere_.end())
+        return emitters_->distant_irradiance(distant, x.position) / sums.back();
+    return sums.front() / sums.back() * tree_.probability(static_cast<std::uint32_t>(light), x.position, x.normal);
 }
 
 std::array<Vec3, 3> LightSampler::corners(const Part& part, const Vec3& x) const {

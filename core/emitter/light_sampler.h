@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/emitter/light_table.h"
+#include "core/emitter/light_tree.h"
 #include "core/sampling/delta_pdf.h"
 #include "core/sampling/projected_polygon.h"
 
@@ -35,6 +36,7 @@ enum class LightChoice {
     power,         // in proportion to power, computed with the largest radiance
     contribution,  // in proportion to the unoccluded contribution to the point, radiance times solid angle; takes time linear in
                    // the number of parts of lights
+    tree,          // about in proportion to that, by bounds of groups of lights; takes time logarithmic in their number
     all            // every light once
 };
 
@@ -72,13 +74,14 @@ public:
     LightSample sample(const Receiver& x, const Vec2& uv, std::size_t ask = 0) const {
         if (empty()) return {};
         if (choice_ == LightChoice::contribution) return sample_by_contribution(x, uv);
+        if (choice_ == LightChoice::tree) return sample_by_tree(x, uv);
         const LightTable::Choice chosen =
             choice_ == LightChoice::all ? table_.choose_of(table_.lights()[ask], uv.x) : table_.choose(uv.x);
         return sample_chosen(chosen, x, uv.y);
     }
     // Whether samples are points that do not depend on x, on surfaces that shine evenly; and such a point.
     bool finds_even_points() const {
-        return !empty() && choice_ != LightChoice::all && choice_ != LightChoice::contribution && place_ == LightPlace::area &&
+        return !empty() && choice_ != LightChoice::all && !depends_on_place() && place_ == LightPlace::area &&
                table_.size() == table_.parts().size() && emitters_->shapes_shine_evenly();
     }
     EvenPoint sample_even_point(const Vec2& uv) const {
@@ -89,13 +92,13 @@ public:
     }
     // The pdf, per solid angle, with which a sample for x finds y, the hit of a ray from x along w; y may be infinitely far away.
     double pdf(const Receiver& x, const Vec3& w, const SurfacePoint& y) const {
-        if (choice_ != LightChoice::contribution && place_ == LightPlace::area && !y.is_infinite())
+        if (!depends_on_place() && place_ == LightPlace::area && !y.is_infinite())
             return density_of_shape_[y.shape] * per_solid_angle(y.position - x.position, y.normal, w);
         return pdf_in_general(x, w, y);
     }
 
     // The probability with which a sample for x chooses a distant light.
-    double probability_of_distant(std::size_t distant, const Vec3& x) const;
+    double probability_of_distant(std::size_t distant, const Receiver& x) const;
 
 private:
     LightSampler(const Geometry& geometry, const Emitters& emitters, LightChoice choice, LightPlace place,
@@ -144,6 +147,9 @@ private:
     SurfacePoint point_on(const Part& part, const Vec3& position) const;
     SurfacePoint point_towards(const Part& part, const Vec3& x, const Vec3& w) const;
     LightSample sample_by_contribution(const Receiver& x, const Vec2& uv) const;
+    LightSample sample_by_tree(const Receiver& x, const Vec2& uv) const;
+    // Whether lights are chosen by where x is.
+    bool depends_on_place() const { return choice_ == LightChoice::contribution || choice_ == LightChoice::tree; }
     double pdf_in_general(const Receiver& x, const Vec3& w, const SurfacePoint& y) const;
 
     bool is_near(const Part& part, const Vec3& x) const;
@@ -152,8 +158,12 @@ private:
     // The solid angle of a part if it is sampled by solid angle, or 0.
     double sampled_solid_angle(const Part& part, const Vec3& x) const;
     double contribution(const Part& part, const Vec3& x) const;
+    double probability_of_part(const Part& part, double area, const Receiver& x) const;
     // Cumulative contributions of all parts and distant lights.
     std::vector<double> contributions(const Vec3& x) const;
+    LightTree make_tree();
+    // What the tree and the lights that are everywhere bring, in this order, cumulative.
+    std::vector<double> importances(const Receiver& x) const;
     std::array<Vec3, 3> corners(const Part& part, const Vec3& x) const;
     // If a part is sampled by projected solid angle.
     std::optional<ProjectedPolygon> projected(const Part& part, const Receiver& x) const;
@@ -163,6 +173,8 @@ private:
     LightChoice choice_;
     LightPlace place_;
     LightTable table_;
+    LightTree tree_;                              // of the table's entries that have a place
+    std::vector<std::size_t> everywhere_;         // the others: of the table
     std::vector<Geometry::Place> places_;         // of the table's parts
     std::vector<Geometry::Place> second_places_;  // of the second triangles of its rectangles
     std::vector<double> density_of_shape_;        // density of a sample, per area

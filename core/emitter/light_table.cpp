@@ -1,6 +1,7 @@
 #include "core/emitter/light_table.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace neumann {
 
@@ -44,6 +45,12 @@ LightTable::Part LightTable::part_at(const SurfacePoint& y) const {
     if (!rectangular_.empty() && !rectangular_[y.shape].empty())
         if (const Part& part = rectangular_[y.shape][y.primitive]; part.is_rectangle()) return part;
     return {y.shape, y.primitive};
+}
+
+std::size_t LightTable::index_of(const Part& part) const {
+    const auto found = std::ranges::lower_bound(parts_, std::pair(part.shape, part.primitive), {},
+                                                [](const Part& p) { return std::pair(p.shape, p.primitive); });
+    return static_cast<std::size_t>(found - parts_.begin());
 }
 
 double LightTable::area(const Part& part) const {

@@ -46,6 +46,8 @@ public:
 
     // The part on which a point of an emitting surface lies.
     Part part_at(const SurfacePoint& y) const;
+    // Of a part of the table.
+    std::size_t index_of(const Part& part) const;
     double area(const Part& part) const;
     const Rectangle& rectangle(const Part& part) const { return rectangles_[part.rectangle]; }
 

@@ -37,11 +37,9 @@ const Named<Strategy> strategies{{"hemisphere", {DirectLight::hemisphere}},
 Strategy strategy(const DirectLightSettings& direct) { return {direct.direct, direct.place, direct.heuristic}; }
 bool asks_lights(const DirectLightSettings& s) { return s.direct == DirectLight::light || s.direct == DirectLight::mis; }
 
-const Named<LightChoice> light_choices{{"mixed", LightChoice::mixed},
-                                       {"uniform", LightChoice::uniform},
-                                       {"power", LightChoice::power},
-                                       {"contribution", LightChoice::contribution},
-                                       {"all", LightChoice::all}};
+const Named<LightChoice> light_choices{{"mixed", LightChoice::mixed}, {"uniform", LightChoice::uniform},
+                                       {"power", LightChoice::power}, {"contribution", LightChoice::contribution},
+                                       {"tree", LightChoice::tree},   {"all", LightChoice::all}};
 const Named<SamplerKind> samplers{{"sobol", SamplerKind::sobol}, {"independent", SamplerKind::independent}};
 const Named<Spacing> spacings{{"hessian", Spacing::hessian}, {"split-sphere", Spacing::split_sphere}};
 const Named<LeastError> least_errors{{"bounces", LeastError::of_bounces}, {"sum", LeastError::of_sum}, {"all", LeastError::of_all}};
@@ -182,7 +180,7 @@ std::vector<MethodOption> make_options() {
         choice(
             "lights", "WHICH",
             "How the light to sample is chosen: mixed (half by power, half uniform, the default), uniform, power, contribution "
-            "(radiance times solid angle), all (each in turn)",
+            "(radiance times solid angle), tree (about the same, for many lights), all (each in turn)",
             light_choices, [](const auto& m) requires requires { m.direct; } {
                 return asks_lights(m.direct) ? std::optional(m.direct.lights) : std::nullopt;
             },

@@ -38,7 +38,7 @@ TEST_F(RenderLights, AllNamesGiveTheSame) {
     for (const char* how : {"hemisphere", "cosine", "bsdf", "surfaces", "light", "solid-angle", "projected", "mis-balance",
                             "mis-solid-angle", "mis-projected"})
         ways.push_back({"--direct", how});
-    for (const char* which : {"mixed", "uniform", "power", "contribution", "all"})
+    for (const char* which : {"mixed", "uniform", "power", "contribution", "tree", "all"})
         ways.push_back({"--lights", which, "--seed", "1"});
     for (const std::vector<std::string>& way : ways) {
         const ChannelMean found = mean_of(way, "512");

@@ -109,7 +109,8 @@ TEST(Crowds, LampsStartAsFastAsTheyLoad) {
     const Scene scene = maker.make();
     const double loading = processor_seconds([&] { EXPECT_FALSE(maker.make().emitters.empty()); });
     const Receiver x(Vec3(0.5, 0.5, 3.0));
-    for (const LightChoice choice : {LightChoice::mixed, LightChoice::power, LightChoice::all, LightChoice::contribution})
+    for (const LightChoice choice :
+         {LightChoice::mixed, LightChoice::power, LightChoice::all, LightChoice::contribution, LightChoice::tree})
         EXPECT_LT(processor_seconds([&] {
                       const LightSampler lights(scene.geometry, scene.emitters, choice);
                       EXPECT_GT(lights.sample(x, Vec2(0.3, 0.7)).pdf, 0.0);

@@ -12,8 +12,8 @@ namespace neumann::physics::direct_strategies_test {
 
 using Settings = DirectLightSettings;
 
-constexpr LightChoice choices[] = {LightChoice::mixed, LightChoice::uniform, LightChoice::power, LightChoice::contribution,
-                                   LightChoice::all};
+constexpr LightChoice choices[] = {LightChoice::mixed,        LightChoice::uniform, LightChoice::power,
+                                   LightChoice::contribution, LightChoice::tree,    LightChoice::all};
 
 constexpr LightPlace places[] = {LightPlace::area, LightPlace::solid_angle, LightPlace::projected, LightPlace::near_projected};
 
@@ -85,7 +85,7 @@ TEST(DirectStrategiesSlow, VariancesBelowACeiling) {
     }
 }
 
-// Bounces 1 to 3 on the floor, against the plain walk by directions of the material. 108 comparisons of two estimates at 4.5
+// Bounces 1 to 3 on the floor, against the plain walk by directions of the material. 126 comparisons of two estimates at 4.5
 // standard errors.
 TEST(DirectStrategiesSlow, ManyLights) {
     const Scene scene = many_lights().make();

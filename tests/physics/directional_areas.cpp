@@ -171,8 +171,8 @@ TEST(DirectionalAreasSlow, ByAllDirectStrategies) {
     maker.add(patch({1.5, 0, 1.5}, glm::normalize(Vec3(-1, 0, -1)), 0.2), beam_of(M));
     const Scene scene = maker.make();
     const double exact = rho * (3.0 * 0.2 + M * std::sqrt(0.5) / pi);
-    for (const LightChoice choice :
-         {LightChoice::mixed, LightChoice::uniform, LightChoice::power, LightChoice::contribution, LightChoice::all})
+    for (const LightChoice choice : {LightChoice::mixed, LightChoice::uniform, LightChoice::power, LightChoice::contribution,
+                                     LightChoice::tree, LightChoice::all})
         for (const LightPlace place : {LightPlace::area, LightPlace::solid_angle, LightPlace::projected})
             for (const DirectLight direct : {DirectLight::light, DirectLight::mis}) {
                 SCOPED_TRACE(fmt::format("{} {} {}", static_cast<int>(choice), static_cast<int>(place), static_cast<int>(direct)));
