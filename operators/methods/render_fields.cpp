@@ -3,10 +3,12 @@
 #include "core/base/memory.h"
 #include "core/base/stopwatch.h"
 #include "core/scene/shading_normals.h"
+#include "operators/matrix/sides.h"
 #include "operators/methods/crew.h"
 #include "operators/methods/preparation.h"
 #include "operators/methods/render_job.h"
 #include "operators/pictures/field_goal.h"
+#include "operators/pictures/missing_paths.h"
 #include "operators/pictures/unmet_by_fields.h"
 
 #include <fmt/format.h>
@@ -124,6 +126,15 @@ BounceSeries as_series(const std::shared_ptr<const FieldPictures>& pictures, con
     return series;
 }
 
+// Links find it (operators/matrix/link_light.h); the direct light in a cell does not.
+template <HasFields M>
+bool misses_mirrored_light(const Scene& scene, const M& m) {
+    const FieldReading reading = kind(m);
+    const bool has_links =
+        (reading == FieldReading::matrix || reading == FieldReading::gather) && glossy_of_pictures(scene) == Glossy::by_rays;
+    return reading != FieldReading::importance && !has_links && scene.emitters.has_delta_lights() && has_specular(scene.materials);
+}
+
 template <HasFields M>
 BounceSeries render_by(M m, const RenderJob& job) {
     const Goal& goal = job.goal;
@@ -132,7 +143,7 @@ BounceSeries render_by(M m, const RenderJob& job) {
     if (importance && goal.tail)
         throw InputError("--tail counts bounces by what is left of the light, not of importance: --importance takes -n");
     const std::optional<double> seconds = with_default_limits(goal).seconds;
-    if (seconds && !given && !job.saving.from) prepared_in_time(*seconds, m, job.scene, job.pilot());
+    if (seconds && !given && !job.saving.from) Preparations(job.scene, job.pilot()).in_time(*seconds, m);
     FieldSettings settings = choose_settings(m, job);
     if (goal.relative_error && given)
         throw InputError(
@@ -164,7 +175,8 @@ BounceSeries render_by(M m, const RenderJob& job) {
                 return series;
             });
         };
-    auto rendered = searches ? render_fields_to_goal(job.scene, settings, choose_goal(goal, settings, given, seconds_before),
+    auto rendered = searches ? render_fields_to_goal(job.scene, settings,
+                                                     choose_goal(goal, settings, given, job.clock.seconds() + seconds_before),
                                                      job.watch, team.get(), &saving, see)
                              : render_fields_once(job.scene, settings, job.watch, team.get(), &saving);
     if (!rendered) throw Stopped("interrupted before the pictures were finished: none was written");
@@ -178,6 +190,10 @@ BounceSeries render_by(M m, const RenderJob& job) {
 
     BounceSeries series = as_series(pictures, run, job.scene);
     if (has_shading_normals(job.scene)) series.warnings.add(patches_are_flat);
+    if (misses_mirrored_light(job.scene, m))
+        series.warnings.add(
+            "what a mirror throws on from a light without extent is not found by patches whose directions are divided into cells, "
+            "and is missing");
     warn_of_wide_intervals(series.report, series.warnings);
     // Running out of time is worth a warning only if there was an error to reach.
     const bool ended_early = run.outcome == Outcome::memory_reached || run.outcome == Outcome::does_not_pay;

@@ -8,12 +8,14 @@
 #include "operators/matrix/light_vector.h"
 #include "operators/matrix/scene_patches.h"
 #include "operators/matrix/transport_matrix.h"
+#include "operators/methods/render.h"
 #include "operators/pictures/field_rendering.h"
 #include "operators/pictures/link_raster.h"
 #include "operators/pictures/rendered_series.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
 #include <numeric>
 
@@ -271,6 +273,31 @@ TEST(LinksOfAnyMaterialSlow, AreSeenInAMirrorAsTheyAre) {
             }
         }
     }
+}
+
+// Of a point lamp a mirror throws light on by a link; where its directions are cells, that is missing, and told.
+TEST(LinksOfAnyMaterial, WhatIsMissingWithoutThemIsTold) {
+    SceneMaker maker;
+    maker.add(room({-1, -1, -1}, {1, 1, 1}), matte(0.5));
+    maker.add(Sphere{{0.1, -0.2, -0.3}, 0.5, false}, made_of(Conductor()));
+    maker.parts.lights.delta.push_back(PointLight({0.2, 0.1, 0.7}, Rgb(1.0)));
+    look(maker, 8);
+    const Scene scene = maker.make();
+    Goal goal;
+    goal.bounces = 2;
+    goal.samples = 4;
+    const auto is_told = [&](const Method& method) {
+        const auto warnings = render(scene, method, goal).warnings.counts();
+        return std::ranges::any_of(warnings, [](const auto& w) {
+            return w.first.find("a mirror throws on from a light without extent") != std::string::npos;
+        });
+    };
+    method::Patches in_cells;
+    method::Matrix by_links;
+    in_cells.patches = by_links.patches = 60;
+    EXPECT_TRUE(is_told(in_cells));
+    EXPECT_FALSE(is_told(by_links));
+    EXPECT_TRUE(is_told(method::Walk{}));
 }
 
 // Anisotropic metal has no cells of directions, and needs none.
