@@ -30,7 +30,10 @@ Json as_json(const SamplePlace& place) { return {place.pixel, as_json(place.name
 SamplePlace place_from(const Json& json) { return {json.at(0), name_from(json.at(1))}; }
 
 Json as_json(const Tally& tally) {
-    Json json = {{"rays", tally.rays}, {"given_up", tally.given_up}, {"non_finite_count", tally.non_finite_count}};
+    Json json = {{"rays", tally.rays},
+                 {"shared_rays", tally.shared_rays},
+                 {"given_up", tally.given_up},
+                 {"non_finite_count", tally.non_finite_count}};
     json["non_finite"] = Json::array();
     for (const NonFiniteSample& s : tally.non_finite) json["non_finite"].push_back({s.bounce, as_json(s.place)});
     json["largest"] = Json::array();
@@ -48,6 +51,7 @@ Json as_json(const Tally& tally) {
 Tally tally_from(const Json& json) {
     Tally tally(json.at("rays").size());
     json.at("rays").get_to(tally.rays);
+    tally.shared_rays = json.value("shared_rays", std::uint64_t{0});
     json.at("given_up").get_to(tally.given_up);
     json.at("non_finite_count").get_to(tally.non_finite_count);
     for (const Json& s : json.at("non_finite")) tally.non_finite.push_back({s.at(0), place_from(s.at(1))});

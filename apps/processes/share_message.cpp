@@ -13,6 +13,7 @@ std::vector<std::byte> as_bytes(const SampledShare& sampled) {
     out.numbers(sampled.data);
     out.numbers(sampled.ranges.of);
     out.numbers(tally.rays);
+    out.number(tally.shared_rays);
     out.number(tally.given_up);
     out.numbers(tally.non_finite_count);
     out.numbers(tally.non_finite);
@@ -31,6 +32,7 @@ SampledShare sampled_share_from(std::span<const std::byte> bytes) {
     auto rays = in.numbers<std::uint64_t>();
     Tally tally(rays.size());
     tally.rays = std::move(rays);
+    tally.shared_rays = in.number<std::uint64_t>();
     tally.given_up = in.number<std::uint64_t>();
     tally.non_finite_count = in.numbers<std::uint64_t>();
     tally.non_finite = in.numbers<NonFiniteSample>();

@@ -67,7 +67,7 @@ struct BounceSeries {
     std::vector<Checkpoint> convergence;
     Outcome outcome = Outcome::samples_reached;
     std::uint64_t samples = 0;  // per pixel
-    std::uint64_t rays = 0;
+    std::uint64_t rays = 0, shared_rays = 0;  // in all, and of these for points that all pixels share
     double seconds = 0.0;
     double setup_seconds = 0.0;  // part of `seconds`: the time before the first sample
     double degrees_of_freedom = 0.0;

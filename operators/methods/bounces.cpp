@@ -37,13 +37,15 @@ int default_bounces(const Pilot& pilot) {
     return end < 0 ? enough : std::min(enough, end);
 }
 
+int choose_bounces(const Goal& goal, const Scene& scene, const PilotOnDemand& pilot) {
+    return goal.bounces    ? *goal.bounces
+           : goal.tail     ? bounces_for(*goal.tail, pilot())
+           : scene.bounces ? *scene.bounces
+                           : default_bounces(pilot());
+}
+
 int choose_bounces(const RenderJob& job) {
-    const Goal& goal = job.goal;
-    const int bounces = job.saving.from     ? job.saving.from->render.bounces
-                        : goal.bounces      ? *goal.bounces
-                        : goal.tail         ? bounces_for(*goal.tail, job.pilot())
-                        : job.scene.bounces ? *job.scene.bounces
-                                            : default_bounces(job.pilot());
+    const int bounces = job.saving.from ? job.saving.from->render.bounces : choose_bounces(job.goal, job.scene, job.pilot);
     job.watch.chosen(bounces);
     return bounces;
 }

@@ -3,7 +3,6 @@
 #include "core/base/stopwatch.h"
 #include "operators/correction/diffuse_sides.h"
 #include "operators/methods/ahead.h"
-#include "operators/methods/bounces.h"
 #include "operators/methods/candidates.h"
 #include "operators/methods/method_pilot.h"
 #include "operators/methods/preparation.h"
@@ -15,7 +14,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
 #include <optional>
 #include <utility>
 
@@ -32,7 +30,7 @@ constexpr std::uint32_t trial_replicates = 4;
 // the goal affords.
 constexpr std::uint64_t longer = 4;
 constexpr double part_of_render = 0.05;
-// Of the seconds, what a method may make ready for its pilot, and again for the render.
+// Of the seconds, what a method may make ready for its pilot: it is lost where another is taken.
 constexpr double part_of_preparation = 1.0 / 12.0;
 // Pilots that are foretold to take up so much of that part of the seconds have room to take longer.
 constexpr double caution = 0.7;
@@ -49,8 +47,6 @@ constexpr double largest_known_error = 1.0;
 constexpr double work_of_guided = 0.4, rays_of_tables = 4.5e6;
 // Rays for the shared points of `corrected` in a pilot, however small its film is.
 constexpr double rays_of_points = 130'000.0;
-// Rays before the first sample are traced in order, without shading.
-constexpr double price_of_setup = 0.3;
 
 // Of a pilot.
 struct TrialSize {
@@ -96,13 +92,13 @@ MethodTrial described(const MethodPilot& trial, double error) {
 
 // Takes a method with a bias, if its error after the work of `choice` is clearly smaller. `work`: for a squared error of 1.
 void allow_bias(MethodChoice& choice, double work, const std::vector<MethodPilot>& known, const Scene& small, const Goal& goal,
-                double affordable, const Goal& of_trial, const Watch& watch) {
+                double affordable, const Goal& of_trial, Prepared& prepared, const Watch& watch) {
     if (!(work > 0.0)) return;
     const double to_goal = goal.relative_error ? work / (*goal.relative_error * *goal.relative_error) : affordable;
     const double rays = std::min(affordable, to_goal), error = work / rays;
     const std::string unbiased = name_of(choice.method);
     double least = clearly_better * error;
-    const std::vector<MethodPilot> trials = make_pilots(biased_candidates(), small, of_trial, watch, true);
+    const std::vector<MethodPilot> trials = make_pilots(biased_candidates(), small, of_trial, prepared, watch, true);
     if (watch.stop()) choice.why += "; methods with a bias were left out: their pilots would take too long";
     for (const MethodPilot& trial : trials) {
         const double of_pilot = error_with_bias(trial, known);
@@ -123,13 +119,11 @@ struct Promise {
     std::vector<double> errors, works;
     std::size_t best = 0;
 };
-Promise promise_of(const std::vector<MethodPilot>& trials, double affordable) {
+Promise promise_of(const std::vector<MethodPilot>& trials) {
     Promise p;
     for (const MethodPilot& trial : trials) {
-        const double left = 1.0 - price_of_setup * trial.setup_rays / affordable;
         p.errors.push_back(unbiased_error(trial, trials));
-        p.works.push_back(left > 0.0 ? p.errors.back() * trial.rays * trial.candidate.price / left
-                                     : std::numeric_limits<double>::infinity());
+        p.works.push_back(p.errors.back() * trial.rays * trial.candidate.price);
     }
     for (std::size_t m = 1; m < trials.size(); ++m)
         if (p.works[m] < clearly_better * p.works[p.best]) p.best = m;
@@ -141,7 +135,7 @@ class TimeLimit {
 public:
     // `bounces`: of the pilots.
     TimeLimit(const Scene& scene, double seconds, const Pilot& pilot, int bounces)
-        : scene_(scene), pilot_(pilot), seconds_(seconds), bounces_(bounces) {}
+        : scene_(scene), pilot_(pilot), preparations_(scene, pilot), seconds_(seconds), bounces_(bounces) {}
 
     double of_pilots() const { return part_of_render * seconds_; }
     // How many samples a pixel there is time for, up to bounce N by the walk, or of so many rays of this price.
@@ -153,7 +147,7 @@ public:
     // With what the methods that are able prepare, which may be foretold wrongly by a half.
     double of_all(const std::vector<Candidate>& able) const {
         double seconds = of_pilots();
-        for (const Candidate& candidate : able) seconds += 1.5 * preparation_of(candidate.method, scene_, pilot_).seconds;
+        for (const Candidate& candidate : able) seconds += 1.5 * preparations_.of(candidate.method).seconds;
         return seconds;
     }
 
@@ -161,7 +155,7 @@ public:
     std::string leave_out(std::vector<Candidate>& able) const {
         std::string said;
         std::erase_if(able, [&](const Candidate& candidate) {
-            const Preparation preparation = preparation_of(candidate.method, scene_, pilot_);
+            const Preparation preparation = preparations_.of(candidate.method);
             if (preparation.seconds <= part_of_preparation * seconds_) return false;
             said += fmt::format("; {} was left out: {}", name_of(candidate.method), describe(preparation));
             return true;
@@ -191,6 +185,7 @@ private:
 
     const Scene& scene_;
     const Pilot& pilot_;
+    Preparations preparations_;
     double seconds_;
     int bounces_;
 };
@@ -206,7 +201,7 @@ struct Trials {
 
 // If `watch` stops them, of the methods that have had one; nothing if that is none but the walk.
 std::optional<Trials> try_methods(std::vector<Candidate> able, const Scene& small, const Goal& goal, double affordable,
-                                  const Watch& watch) {
+                                  Prepared& prepared, const Watch& watch) {
     const auto is_guided = [](const Candidate& c) { return std::holds_alternative<method::Guided>(c.method); };
     std::vector<Candidate> guided;
     std::ranges::copy_if(able, std::back_inserter(guided), is_guided);
@@ -215,15 +210,15 @@ std::optional<Trials> try_methods(std::vector<Candidate> able, const Scene& smal
     std::optional<Trials> before;
     for (Trials trials{goal, {}, {}};; trials.goal.samples = *trials.goal.samples * longer) {
         auto& [goal_of_pilots, pilots, promise] = trials;
-        pilots = make_pilots(able, small, goal_of_pilots, watch, false);
+        pilots = make_pilots(able, small, goal_of_pilots, prepared, watch, false);
         if (watch.stop() && (before || pilots.size() < 2)) return before;
-        promise = promise_of(pilots, affordable);
+        promise = promise_of(pilots);
         if (watch.stop()) return trials;
         before = trials;
         if (rays_of(pilots) + rays_of_tables <= most && promise.works[promise.best] > work_of_guided * promise.works.front()) {
-            std::ranges::move(make_pilots(guided, small, goal_of_pilots, watch, true), std::back_inserter(pilots));
+            std::ranges::move(make_pilots(guided, small, goal_of_pilots, prepared, watch, true), std::back_inserter(pilots));
             if (watch.stop()) return before;
-            promise = promise_of(pilots, affordable);
+            promise = promise_of(pilots);
         }
         if (trials.is_known() || static_cast<double>(longer) * rays_of(pilots) > most) return trials;
     }
@@ -231,21 +226,21 @@ std::optional<Trials> try_methods(std::vector<Candidate> able, const Scene& smal
 
 // Whether one method takes clearly less work than the other, and in pilots of another seed, too. (In glass-ball one in four finds
 // `corrected` better than `bidirectional`.)
-bool is_better_twice(std::size_t one, std::size_t other, const Trials& trials, const Scene& small, double affordable,
+bool is_better_twice(std::size_t one, std::size_t other, const Trials& trials, const Scene& small, Prepared& prepared,
                      const Watch& watch) {
     if (trials.promise.works[one] >= clearly_better * trials.promise.works[other]) return false;
     Goal goal = trials.goal;
     goal.seed ^= second_stream;
     const std::vector<MethodPilot> again =
-        make_pilots({trials.pilots[one].candidate, trials.pilots[other].candidate}, small, goal, watch, true);
+        make_pilots({trials.pilots[one].candidate, trials.pilots[other].candidate}, small, goal, prepared, watch, true);
     if (again.size() < 2) return false;
-    const Promise promise = promise_of(again, affordable);
+    const Promise promise = promise_of(again);
     return promise.works[0] < clearly_better * promise.works[1];
 }
 
-MethodChoice choose(const method::Auto& open, const Scene& scene, const Goal& goal, const PilotOnDemand& pilot,
+MethodChoice choose(const method::Auto& open, const Scene& scene, const Goal& goal, const PilotOnDemand& pilot, Prepared& prepared,
                     const Watch& watch) {
-    const int bounces = std::min(goal.bounces.value_or(scene.bounces.value_or(trial_bounces)), trial_bounces);
+    const int N = choose_bounces(goal, scene, pilot), bounces = std::min(N, trial_bounces);
     if (bounces == 0) return {method::Walk{open}, "the emitted light alone takes no walk"};
     std::vector<Candidate> able = candidates(open, scene);
     if (able.size() == 1)
@@ -260,7 +255,7 @@ MethodChoice choose(const method::Auto& open, const Scene& scene, const Goal& go
     TrialSize size;
     if (limits.seconds) {
         time.emplace(scene, *limits.seconds, pilot(), bounces);
-        const double samples = time->samples_of_walk(goal.bounces.value_or(scene.bounces.value_or(default_bounces(pilot()))));
+        const double samples = time->samples_of_walk(N);
         if (samples < fewest_replicates)
             return {method::Walk{open},
                     fmt::format("in so short a time, {:.2g} samples a pixel of the walk, no other makes more", samples)};
@@ -271,7 +266,8 @@ MethodChoice choose(const method::Auto& open, const Scene& scene, const Goal& go
     const double seconds_of_pilots = time ? time->of_all(able) : 0.0;
     const Watch of_pilots{.stop = [&] { return watch.stop() || (time && clock.seconds() > seconds_of_pilots); }};
     const Scene small = scene.with(small_film(scene.film, size.width));
-    const std::optional<Trials> trials = try_methods(able, small, goal_of_trial(goal, bounces, size), affordable, of_pilots);
+    const std::optional<Trials> trials =
+        try_methods(able, small, goal_of_trial(goal, bounces, size), affordable, prepared, of_pilots);
     const MethodChoice interrupted{method::Walk{open},
                                    watch.stop() ? "the pilot was interrupted"
                                                 : "a pilot of the others would take more than a twentieth of the time" + left_out};
@@ -288,12 +284,13 @@ MethodChoice choose(const method::Auto& open, const Scene& scene, const Goal& go
         why = fmt::format("for the same error the others took, in a pilot: {} times its work", fmt::join(others, ", "));
 
     const MethodChoice by_lights = by_the_lights(open, scene);
-    const auto of_lights = static_cast<std::size_t>(
-        std::ranges::find(pilots, by_lights.method, [](const MethodPilot& pilot) { return pilot.candidate.method; }) -
-        pilots.begin());
+    const auto of_lights =
+        static_cast<std::size_t>(std::ranges::find(pilots, by_lights.method.index(),
+                                                   [](const MethodPilot& pilot) { return pilot.candidate.method.index(); }) -
+                                 pilots.begin());
     if (!trials->is_known() && of_lights != best && of_lights < pilots.size()) {
         // The walk, the first of them, meets the fewest of such paths.
-        if (best > 0 && is_better_twice(best, of_lights, *trials, small, affordable, of_pilots)) {
+        if (best > 0 && is_better_twice(best, of_lights, *trials, small, prepared, of_pilots)) {
             why = fmt::format("rare paths decide, and in two pilots {} took clearly more work than it", name_of(by_lights.method));
         } else {
             taken = of_lights;
@@ -302,9 +299,9 @@ MethodChoice choose(const method::Auto& open, const Scene& scene, const Goal& go
         if (watch.stop()) return interrupted;
     }
     const MethodPilot& best_pilot = pilots[taken];
-    if (const double samples =
-            time ? time->samples(best_pilot.rays / best_pilot.samples, best_pilot.candidate.price) : fewest_replicates;
-        taken > 0 && samples < fewest_replicates)
+    const double samples = time ? time->samples(best_pilot.rays / best_pilot.samples, best_pilot.candidate.price)
+                                : affordable / (rays_of_bounce * (bounces + 1.0) * scene.film.crop_width * scene.film.crop_height);
+    if (time && taken > 0 && samples < fewest_replicates)
         return {method::Walk{open},
                 fmt::format("{} has time for {:.2g} samples a pixel alone", name_of(best_pilot.candidate.method), samples)};
     MethodChoice choice{best_pilot.candidate.method, why + left_out};
@@ -312,8 +309,7 @@ MethodChoice choose(const method::Auto& open, const Scene& scene, const Goal& go
     // Fields have linear RGB alone and no parts, and choose their samples by themselves where an error is to be reached.
     const bool fields_can = !goal.colors && !goal.part && !(goal.samples && goal.relative_error);
     if (open.bias_allowed && fields_can)
-        allow_bias(choice, works[taken], pilots, small, goal, affordable, goal_of_trial(goal, bounces, size), of_pilots);
-    const double samples = affordable / (rays_of_bounce * (bounces + 1.0) * scene.film.crop_width * scene.film.crop_height);
+        allow_bias(choice, works[taken], pilots, small, goal, affordable, goal_of_trial(goal, bounces, size), prepared, of_pilots);
     if (samples >= fewest_to_distribute) set_adaptive(choice.method, LeastError::of_all);
     return choice;
 }
@@ -321,9 +317,9 @@ MethodChoice choose(const method::Auto& open, const Scene& scene, const Goal& go
 }  // namespace
 
 MethodChoice choose_method(const method::Auto& open, const Scene& scene, const Goal& goal, const PilotOnDemand& pilot,
-                           const Watch& watch) {
+                           Prepared& prepared, const Watch& watch) {
     const Stopwatch clock;
-    MethodChoice choice = choose(open, scene, goal, pilot, watch);
+    MethodChoice choice = choose(open, scene, goal, pilot, prepared, watch);
     if (open.adaptive) set_adaptive(choice.method, *open.adaptive);
     if (!choice.trials.empty()) choice.seconds = clock.seconds();
     return choice;

@@ -24,7 +24,6 @@ struct Goal {
     // per pixel. The default depends on the samples.
     std::optional<std::uint32_t> replicates = {};
     std::optional<double> seconds = {};
-    double spent = 0.0;                         // seconds that have gone into choosing the method and count towards `seconds`
     std::optional<double> relative_error = {};  // for every bounce
     std::optional<double> memory = {};          // approximate limit in bytes; the default is half of the machine's memory
     std::uint64_t seed = 0;

@@ -1,7 +1,8 @@
 #include "operators/methods/method_pilot.h"
 
 #include "core/base/error.h"
-#include "operators/methods/render.h"
+#include "operators/methods/render_job.h"
+#include "operators/pictures/corrected_sampler.h"
 
 #include <algorithm>
 
@@ -22,8 +23,10 @@ double square(const Image& image) {
 
 MethodPilot pilot_of(const Candidate& candidate, const BounceSeries& series) {
     MethodPilot pilot{candidate};
-    pilot.rays = static_cast<double>(series.convergence.back().rays);
-    pilot.setup_rays = static_cast<double>(series.rays) - pilot.rays;
+    pilot.cast = static_cast<double>(series.convergence.back().rays);
+    pilot.rays = pilot.cast;
+    if (series.shared_rays > 0)
+        pilot.rays = (pilot.cast - static_cast<double>(series.shared_rays)) * (1.0 + CorrectedSampler::share_of_points);
     for (int i = 1; i <= series.bounces(); ++i) {
         const auto bounce = static_cast<std::size_t>(i);
         PixelEstimate term = series.term(bounce);
@@ -70,12 +73,12 @@ double relative_error(const MethodPilot& pilot, const std::vector<MethodPilot>& 
 double MethodPilot::Term::light() const { return square(picture) - variance; }
 
 std::vector<MethodPilot> make_pilots(const std::vector<Candidate>& methods, const Scene& small, const Goal& goal,
-                                     const Watch& watch, bool may_refuse) {
+                                     Prepared& prepared, const Watch& watch, bool may_refuse) {
     std::vector<MethodPilot> pilots;
     for (const Candidate& candidate : methods) {
         if (watch.stop()) break;
         try {
-            const BounceSeries series = render(small, candidate.method, goal, {.stop = watch.stop});
+            const BounceSeries series = render(small, candidate.method, goal, {.stop = watch.stop}, prepared);
             if (series.outcome != Outcome::interrupted) pilots.push_back(pilot_of(candidate, series));
         } catch (const InputError&) {
             // A scene without surfaces has no patches.
@@ -89,7 +92,7 @@ std::vector<MethodPilot> make_pilots(const std::vector<Candidate>& methods, cons
 
 double rays_of(const std::vector<MethodPilot>& pilots) {
     double rays = 0.0;
-    for (const MethodPilot& pilot : pilots) rays += pilot.rays;
+    for (const MethodPilot& pilot : pilots) rays += pilot.cast;
     return rays;
 }
 

@@ -4,6 +4,7 @@
 #include "core/image/image.h"
 #include "operators/methods/candidates.h"
 #include "operators/methods/goal.h"
+#include "operators/methods/prepared.h"
 #include "operators/watch.h"
 
 #include <vector>
@@ -21,14 +22,16 @@ struct MethodPilot {
     };
 
     Candidate candidate;
-    double samples = 0.0, rays = 0.0, setup_rays = 0.0;
+    double samples = 0.0;
+    double cast = 0.0;             // rays of the samples
+    double rays = 0.0;             // the same, of a larger picture: a small one has more of what all pixels share
     std::vector<Term> terms = {};  // bounces 1 …
 };
 
 // Renders a scene with each method. Those that refuse it are left out; if not `may_refuse`, the first refuses for all and throws
 // InputError. Ends early if `watch` stops it, without the method that was interrupted.
 std::vector<MethodPilot> make_pilots(const std::vector<Candidate>& methods, const Scene& small, const Goal& goal,
-                                     const Watch& watch, bool may_refuse);
+                                     Prepared& prepared, const Watch& watch, bool may_refuse);
 
 double rays_of(const std::vector<MethodPilot>& pilots);
 

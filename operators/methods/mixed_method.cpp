@@ -27,7 +27,8 @@ Mixture make_mixture(const method::Mixed& mixed, const Scene& scene, const Sampl
             SamplingSettings own = settings;
             own.generator = sampling_settings(candidate.method, scene, {}, settings.seed).generator;
             own.walk.left_out = plan_for(candidate.method, scene).walk;
-            set_up(candidate.method, scene, settings.walk.bounces, settings.seed, memory / 2.0, own, watch);
+            Prepared prepared(settings.seed);
+            set_up(candidate.method, scene, settings.walk.bounces, memory / 2.0, own, prepared, watch);
             all.push_back({name_of(candidate.method), own, candidate.price});
         } catch (const InputError&) {
             // Others refuse what the walk does not: a scene without surfaces has no patches.

@@ -21,32 +21,15 @@ double longest_preparation(double seconds) { return std::max(part_of_time * seco
 // The rays of a guide's tables can be fewer, down to one in a cell.
 constexpr std::uint32_t fewest_of_table = CellDistribution::cells;
 
-struct ShapeSides {
-    double share = 0.0;  // of the area
-    double sides = 0.0;  // that reflect or shine
-};
-struct Count {
-    std::vector<ShapeSides> shapes;
-    double faces = 0.0;
-};
-// To join a face to its neighbours takes about as long as so many rays.
-constexpr double rays_of_face = 0.3;
-Count count_of(const Scene& scene) {
-    Count count;
-    const std::vector<ShapeArea> areas = shape_areas(scene.geometry);
-    const double area = sum_of_areas(areas);
-    for (std::uint32_t shape = 0; shape < areas.size(); ++shape) {
-        const bool front = scene.materials.at(shape, true) || scene.emitters.is_emitter(shape);
-        count.faces += scene.geometry.primitive_count(shape);
-        count.shapes.push_back(
-            {area > 0.0 ? areas[shape].area / area : 0.0, (front ? 1.0 : 0.0) + (scene.materials.at(shape, false) ? 1.0 : 0.0)});
-    }
-    return count;
-}
+// A ray of the pilot's walks takes longer than one for fields or tables, which has no shading and begins where others do; and to
+// join a face to its neighbours, and to know its area, takes about as long as so many of the former. Measured: corrected in a cave
+// of 30,000 triangles, and a body of 10⁶ in a room (tests/bench/bench_mesh.py), 0.35 and 0.73 s.
+constexpr double price_of_ray = 0.35, rays_of_face = 1.2;
 
-double facets_of(const Count& count, double patches) {
+using Shapes = std::vector<Preparations::ShapeSides>;
+double facets_of(const Shapes& shapes, double patches) {
     double facets = 0.0;
-    for (const ShapeSides& shape : count.shapes)
+    for (const Preparations::ShapeSides& shape : shapes)
         if (shape.share > 0.0) facets += shape.sides * std::max(patches * shape.share, 1.0);
     return facets;
 }
@@ -54,46 +37,52 @@ double facets_of(const Count& count, double patches) {
 struct Needs {
     double facets, rays;
 };
-Needs needs_of(const method::Guided& guided, const Count& count) {
+Needs needs_of(const method::Guided& guided, const Shapes& shapes) {
     const GuideSettings defaults;
     const double each = defaults.field_rays + TracedSeriesSettings{}.light_samples + guided.directions.value_or(defaults.rays);
-    const double facets = facets_of(count, static_cast<double>(guided.patches.value_or(defaults.patches)));
+    const double facets = facets_of(shapes, static_cast<double>(guided.patches.value_or(defaults.patches)));
     return {facets, each * facets};
 }
-Needs needs_of(const method::Corrected& corrected, const Count& count) {
+Needs needs_of(const method::Corrected& corrected, const Shapes& shapes) {
     const ApproximationSettings defaults;
     const double rays = corrected.directions.value_or(defaults.rays),
                  each = 2.0 * rays + CellDistribution::cells + FieldRaster::rays_of_facet;
-    const double facets = facets_of(count, static_cast<double>(corrected.patches.value_or(defaults.patches)));
+    const double facets = facets_of(shapes, static_cast<double>(corrected.patches.value_or(defaults.patches)));
     return {facets, each * facets};
 }
 template <HasFields M>
-Needs needs_of(const M&, const Count& count) {
+Needs needs_of(const M&, const Shapes& shapes) {
     const FieldSettings first = first_of_search(FieldSettings(), FieldSettings());
-    const double facets = facets_of(count, static_cast<double>(first.patching.patches));
+    const double facets = facets_of(shapes, static_cast<double>(first.patching.patches));
     return {facets, static_cast<double>(first.replicates) * (static_cast<double>(first.rays) + first.light_samples) * facets};
 }
 template <class M>
-requires(!HasFields<M>) Needs needs_of(const M&, const Count&) { return {0.0, 0.0}; }
-
-Preparation preparation_of(const Method& method, const Count& count, const Pilot& pilot) {
-    const Needs needs = std::visit([&](const auto& m) { return needs_of(m, count); }, method);
-    if (needs.facets == 0.0) return {};
-    return {needs.facets, needs.rays, (needs.rays + rays_of_face * count.faces) * pilot.seconds_per_ray()};
-}
+requires(!HasFields<M>) Needs needs_of(const M&, const Shapes&) { return {0.0, 0.0}; }
 
 }  // namespace
 
-Preparation preparation_of(const Method& method, const Scene& scene, const Pilot& pilot) {
-    return preparation_of(method, count_of(scene), pilot);
+Preparations::Preparations(const Scene& scene, const Pilot& pilot) : seconds_per_ray_(pilot.seconds_per_ray()) {
+    const std::vector<ShapeArea> areas = shape_areas(scene.geometry);
+    const double area = sum_of_areas(areas);
+    for (std::uint32_t shape = 0; shape < areas.size(); ++shape) {
+        const bool front = scene.materials.at(shape, true) || scene.emitters.is_emitter(shape);
+        faces_ += scene.geometry.primitive_count(shape);
+        shapes_.push_back(
+            {area > 0.0 ? areas[shape].area / area : 0.0, (front ? 1.0 : 0.0) + (scene.materials.at(shape, false) ? 1.0 : 0.0)});
+    }
+}
+
+Preparation Preparations::of(const Method& method) const {
+    const Needs needs = std::visit([&](const auto& m) { return needs_of(m, shapes_); }, method);
+    if (needs.facets == 0.0) return {};
+    return {needs.facets, needs.rays, (price_of_ray * needs.rays + rays_of_face * faces_) * seconds_per_ray_};
 }
 
 double cut_off_preparation(double seconds) { return 1.5 * longest_preparation(seconds); }
 
-Method prepared_in_time(double seconds, const Method& method, const Scene& scene, const Pilot& pilot) {
+Method Preparations::in_time(double seconds, const Method& method) const {
     const double longest = longest_preparation(seconds);
-    const Count count = count_of(scene);
-    const auto fits = [&](const Method& m) { return preparation_of(m, count, pilot).seconds <= longest; };
+    const auto fits = [&](const Method& m) { return of(m).seconds <= longest; };
     if (fits(method)) return method;
     const auto* const guided = std::get_if<method::Guided>(&method);
     for (std::uint32_t rays = GuideSettings().rays / 2; guided && !guided->directions && rays >= fewest_of_table; rays /= 2) {
@@ -101,7 +90,7 @@ Method prepared_in_time(double seconds, const Method& method, const Scene& scene
         coarser.directions = rays;
         if (fits(coarser)) return coarser;
     }
-    const Preparation preparation = preparation_of(method, count, pilot);
+    const Preparation preparation = of(method);
     throw InputError(fmt::format(
         "--method {}: {}, and a third of {:.3g} s at most may go into that; take --time {:.0f}, --spp, or --method walk",
         name_of(method), describe(preparation), seconds, std::ceil(preparation.seconds / part_of_time)));

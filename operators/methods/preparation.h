@@ -4,8 +4,8 @@
 #include "operators/methods/method.h"
 #include "operators/pictures/pilot.h"
 
-#include <optional>
 #include <string>
+#include <vector>
 
 namespace neumann {
 
@@ -14,13 +14,28 @@ struct Preparation {
     double rays = 0.0;
     double seconds = 0.0;
 };
-// Of `guided`, `corrected`, and of the first and smallest fields of `matrix`, `gather` and `patches`; nothing for methods whose
-// preparation does not grow with the scene.
-Preparation preparation_of(const Method& method, const Scene& scene, const Pilot& pilot);
 
-// The method, or one with an option less fine whose preparation takes no longer than that. Throws InputError if there is none.
-// `seconds`: the time limit of the render.
-Method prepared_in_time(double seconds, const Method& method, const Scene& scene, const Pilot& pilot);
+class Preparations {
+public:
+    Preparations(const Scene& scene, const Pilot& pilot);
+
+    // Of `guided`, `corrected`, and of the first and smallest fields of `matrix`, `gather` and `patches`; nothing for methods whose
+    // preparation does not grow with the scene.
+    Preparation of(const Method& method) const;
+    // The method, or one with an option less fine whose preparation takes no longer than it may. Throws InputError if there is
+    // none. `seconds`: the time limit of the render.
+    Method in_time(double seconds, const Method& method) const;
+
+    struct ShapeSides {
+        double share = 0.0;  // of the area
+        double sides = 0.0;  // that reflect or shine
+    };
+
+private:
+    std::vector<ShapeSides> shapes_;
+    double faces_ = 0.0;
+    double seconds_per_ray_;
+};
 
 // A preparation is given up after so many seconds: what was foretold may be wrong by a half.
 double cut_off_preparation(double seconds);

@@ -22,7 +22,8 @@ RecordedSamples::RecordedSamples(const Scene& scene, const RecordedRender& rende
     settings.walk.rest_probability = render.rest_probability;
     settings.replicate_size = render.replicate_size;
     settings.colors = colors;
-    set_up(render.method, rendered, render.bounces, render.seed, default_memory(), settings);
+    Prepared prepared(render.seed);
+    set_up(render.method, rendered, render.bounces, default_memory(), settings, prepared);
     sampler_ = std::make_unique<const PictureSampler>(rendered, settings);
 }
 

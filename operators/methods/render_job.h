@@ -1,6 +1,8 @@
 // What the two implementations of render() share.
 #pragma once
 
+#include "core/base/stopwatch.h"
+#include "operators/methods/prepared.h"
 #include "operators/methods/render.h"
 #include "operators/pictures/pilot.h"
 
@@ -37,7 +39,15 @@ struct RenderJob {
     const PilotOnDemand& pilot;
     Saving& saving;
     const std::optional<MethodChoice>& choice;
+    Prepared& prepared;
+    const Stopwatch& clock;  // since the render began, with its pilots
+
+    // What counts towards goal.seconds before the first sample: of a render that goes on, its pilots of then, too.
+    double seconds_gone() const { return clock.seconds() + (saving.from && choice ? choice->seconds : 0.0); }
 };
+
+// render(), with what was prepared before, or will be used again.
+BounceSeries render(const Scene& scene, const Method& method, const Goal& goal, const Watch& watch, Prepared& prepared);
 
 // What is the same of all series of a job.
 void describe(BounceSeries& series, const RenderJob& job);
@@ -45,7 +55,9 @@ void describe(BounceSeries& series, const RenderJob& job);
 BounceSeries render_by_paths(const Method& method, const RenderJob& job);
 BounceSeries render_by_fields(const Method& method, const RenderJob& job);
 
-// N, the last bounce with a picture of its own; calls watch.chosen(N). Throws RunError if a tail cannot be met.
+// N, the last bounce with a picture of its own. Throws RunError if a tail cannot be met.
+int choose_bounces(const Goal& goal, const Scene& scene, const PilotOnDemand& pilot);
+// The same, or that of the render that goes on; calls watch.chosen(N).
 int choose_bounces(const RenderJob& job);
 
 }  // namespace neumann

@@ -150,6 +150,7 @@ BounceSeries bounce_series(const RenderedSeries& series, const std::shared_ptr<c
     out.outcome = series.outcome;
     out.samples = series.samples;
     out.rays = std::accumulate(series.tally.rays.begin(), series.tally.rays.end(), std::uint64_t{0});
+    out.shared_rays = series.tally.shared_rays;
     out.seconds = series.seconds;
     out.degrees_of_freedom = result->degrees_of_freedom();
     return out;
@@ -191,7 +192,7 @@ bool set_up(const Method& method, const RenderJob& job, SamplingSettings& settin
     Watch watch = job.watch;
     watch.stop = [&] { return job.watch.stop() || is_late(); };
     try {
-        return set_up(method, job.scene, settings.walk.bounces, job.goal.seed, job.goal.memory.value_or(default_memory()), settings,
+        return set_up(method, job.scene, settings.walk.bounces, job.goal.memory.value_or(default_memory()), settings, job.prepared,
                       watch);
     } catch (const Stopped&) {
         if (!job.watch.stop())
@@ -313,7 +314,7 @@ Sampled sample(const Method& method, SamplingSettings& settings, SamplingGoal go
         const auto helpers = job.watch.crew ? job.watch.crew->begin(record, job.goal.colors) : nullptr;
         RenderedSeries series = render_series(job.scene, settings, goal, watch,
                                               {std::exchange(from, std::nullopt), keep, job.saving.longest_part}, helpers.get());
-        const auto larger = goes_on || watch.stop() ? std::nullopt : larger_replicates(series, goal);
+        const auto larger = goes_on || watch.stop() ? std::nullopt : series.larger_replicates;
         if (larger) {
             watch.tell(fmt::format("It is faster than in a pilot: once more with {} samples a pixel in a replicate, in place of {}",
                                    *larger, settings.replicate_size));
@@ -357,14 +358,14 @@ Method foretold(const Method& method, int bounces, const RenderJob& job) {
     if (!seconds) {
         // What a method prepares for is known without a pilot, but not how long its rays take.
         if (!std::holds_alternative<method::Guided>(method) && !std::holds_alternative<method::Corrected>(method)) return method;
-        const Preparation preparation = preparation_of(method, job.scene, job.pilot());
+        const Preparation preparation = Preparations(job.scene, job.pilot()).of(method);
         if (preparation.seconds > long_preparation)
             job.watch.tell(fmt::format("Before the first sample, {}", describe(preparation)));
         return method;
     }
     const Film& film = job.scene.film;
     const double each = static_cast<double>(film.crop_width) * film.crop_height * job.pilot().seconds_per_walk(bounces),
-                 left = std::max(*seconds - job.goal.spent, 0.0);
+                 left = std::max(*seconds - job.seconds_gone(), 0.0);
     if (left < fewest_replicates * each) {
         const double smaller = std::sqrt(left / (enough_samples * each));
         job.watch.tell(fmt::format(
@@ -374,7 +375,7 @@ Method foretold(const Method& method, int bounces, const RenderJob& job) {
             each, film.crop_width, film.crop_height, left, enough_samples, std::ceil(enough_samples * each),
             std::max(std::floor(smaller * film.crop_width), 1.0), std::max(std::floor(smaller * film.crop_height), 1.0)));
     }
-    return prepared_in_time(*seconds, method, job.scene, job.pilot());
+    return Preparations(job.scene, job.pilot()).in_time(*seconds, method);
 }
 
 }  // namespace
@@ -392,11 +393,10 @@ BounceSeries render_by_paths(const Method& asked, const RenderJob& job) {
         job.watch.tell(
             fmt::format("{} samples a pixel in place of {}: whole replicates of {}, which have less error than smaller ones",
                         *to_reach.samples, *goal.samples, replicate_size(*to_reach.samples)));
-    double setup_seconds = goal.spent;
+    double setup_seconds = job.choice ? job.choice->seconds : 0.0;
     const Stopwatch clock;
     if (set_up(method, job, settings)) setup_seconds += clock.seconds();
-    // The set-up counts towards the time limit.
-    if (setup_seconds > 0.0 && to_reach.seconds) to_reach.seconds = std::max(*to_reach.seconds - setup_seconds, shortest_sampling);
+    if (to_reach.seconds) to_reach.seconds = std::max(*to_reach.seconds - job.seconds_gone(), shortest_sampling);
     settings.replicate_size = choose_replicate_size(to_reach, method, settings, job);
     if (!job.saving.from) expect_room(method, scene.film, settings.replicate_size);
     if (goal.part) take_part(*goal.part, settings.replicate_size, to_reach);

@@ -2,8 +2,6 @@
 
 #include "core/base/error.h"
 #include "operators/cache/record_places.h"
-#include "operators/correction/approximation.h"
-#include "operators/guide/guide.h"
 #include "operators/methods/ahead.h"
 #include "operators/methods/method_options.h"
 #include "operators/methods/mixed_method.h"
@@ -13,7 +11,6 @@
 
 #include <fmt/format.h>
 
-#include <bit>
 #include <stdexcept>
 
 namespace neumann {
@@ -86,31 +83,6 @@ SamplingSettings settings_of(const M&, const Scene&) {
     throw InputError(fmt::format("--method {} has no samples of paths: its bounces are read from fields on patches", M::name));
 }
 
-std::shared_ptr<const Approximation> approximation(const method::Corrected& corrected, const Scene& scene, int bounces,
-                                                   std::uint64_t seed, double memory, const Watch& watch) {
-    ApproximationSettings settings{.bounces = bounces, .seed = seed, .memory = memory};
-    if (corrected.patches) settings.patches = *corrected.patches;
-    if (corrected.directions) {
-        settings.rays = *corrected.directions;
-        if (!std::has_single_bit(settings.rays))
-            throw InputError(fmt::format("--directions {}: --method corrected expects a power of two", settings.rays));
-    }
-    return std::make_shared<const Approximation>(scene, settings, watch);
-}
-
-std::shared_ptr<const Guide> make_guide(const method::Guided& guided, const Scene& scene, int bounces, std::uint64_t seed,
-                                        double memory, const Watch& watch) {
-    GuideSettings settings{.bounces = bounces, .seed = seed, .memory = memory};
-    if (guided.patches) settings.patches = *guided.patches;
-    if (guided.directions) {
-        settings.rays = *guided.directions;
-        if (!std::has_single_bit(settings.rays) || settings.rays < CellDistribution::cells)
-            throw InputError(fmt::format("--directions {}: --method guided expects a power of two, at least {}", settings.rays,
-                                         CellDistribution::cells));
-    }
-    return std::make_shared<const Guide>(scene, settings, watch);
-}
-
 }  // namespace
 
 CacheSettings settings_of(const method::Cache& cache) {
@@ -125,18 +97,19 @@ SamplingSettings sampling_settings(const Method& method, const Scene& scene, con
     return settings;
 }
 
-bool set_up(const Method& method, const Scene& scene, int bounces, std::uint64_t seed, double memory, SamplingSettings& settings,
+bool set_up(const Method& method, const Scene& scene, int bounces, double memory, SamplingSettings& settings, Prepared& prepared,
             const Watch& watch) {
     settings.walk.bounces = bounces;
     if (const auto* guided = std::get_if<method::Guided>(&method))
-        settings.guide = make_guide(*guided, scene, bounces, seed, memory, watch);
+        settings.guide = prepared.guide(*guided, scene, bounces, memory, watch);
     else if (const auto* corrected = std::get_if<method::Corrected>(&method))
-        settings.approximation = approximation(*corrected, scene, bounces, seed, memory, watch);
+        settings.approximation = prepared.approximation(*corrected, scene, bounces, memory, watch);
     else if (const auto* photon = std::get_if<method::Photon>(&method))
         settings.photons = std::make_shared<const PhotonPilot>(scene, PhotonChoice{photon->photons, photon->radius, photon->gather},
-                                                               settings.sampler, seed, memory, watch);
+                                                               settings.sampler, settings.seed, memory, watch);
     else if (const auto* cache = std::get_if<method::Cache>(&method))
-        settings.records = std::make_shared<const RecordPlaces>(scene, settings_of(*cache), settings.sampler, seed, memory, watch);
+        settings.records =
+            std::make_shared<const RecordPlaces>(scene, settings_of(*cache), settings.sampler, settings.seed, memory, watch);
     else if (const auto* walk = std::get_if<method::Walk>(&method); walk && walk->tree)
         settings.tree = tree_ratios(scene.with(small_film(scene.film, tree_width)), bounces, *walk->tree, watch);
     else if (const auto* mixed = std::get_if<method::Mixed>(&method)) {

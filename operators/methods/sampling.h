@@ -2,6 +2,7 @@
 #pragma once
 
 #include "operators/methods/method.h"
+#include "operators/methods/prepared.h"
 #include "operators/pictures/sampling_settings.h"
 #include "operators/plan/plan.h"
 #include "operators/watch.h"
@@ -16,9 +17,9 @@ SamplingSettings sampling_settings(const Method& method, const Scene& scene, con
 CacheSettings settings_of(const method::Cache& cache);
 
 // Makes what a method needs before its first sample: the tables of `guided`, the fields of `corrected`, the radii of `photon`, the
-// places of `cache`, the numbers of samples of --tree and --adaptive. Returns whether it needs anything. Throws InputError, and Stopped if
-// `watch` stops it.
-bool set_up(const Method& method, const Scene& scene, int bounces, std::uint64_t seed, double memory, SamplingSettings& settings,
+// places of `cache`, the numbers of samples of --tree and --adaptive. Returns whether it needs anything. Throws InputError, and
+// Stopped if `watch` stops it.
+bool set_up(const Method& method, const Scene& scene, int bounces, double memory, SamplingSettings& settings, Prepared& prepared,
             const Watch& watch = {});
 
 }  // namespace neumann

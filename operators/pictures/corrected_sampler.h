@@ -23,6 +23,9 @@ struct SharedPoints;
 
 class CorrectedSampler {
 public:
+    // Rays for the points of a replicate, as a part of those for its pixels, roughly; of small pictures it is more.
+    static constexpr double share_of_points = 0.1;
+
     // Keeps a reference to the scene.
     CorrectedSampler(const Scene& scene, const SamplingSettings& settings);
 

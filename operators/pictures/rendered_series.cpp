@@ -67,14 +67,6 @@ std::uint64_t in_whole_replicates(std::uint64_t samples) {
     return (samples + size - 1) / size * size;
 }
 
-std::optional<std::uint32_t> larger_replicates(const RenderedSeries& series, const SamplingGoal& goal) {
-    if (series.outcome != Outcome::time_reached || !goal.seconds || series.samples == 0) return std::nullopt;
-    const double left = *goal.seconds - series.seconds, affordable = left / series.seconds * static_cast<double>(series.samples);
-    if (!(affordable > static_cast<double>(series.samples))) return std::nullopt;
-    const std::uint32_t size = replicate_size(static_cast<std::uint64_t>(affordable));
-    return size > series.replicate_size ? std::optional(size) : std::nullopt;
-}
-
 RenderedSeries render_series(const Scene& scene, const PictureSampler::Settings& settings, const SamplingGoal& goal,
                              const Watch& watch, Continuation continuation, Helpers* helpers) {
     const PictureSampler sampler(scene, settings);
@@ -104,6 +96,16 @@ RenderedSeries render_series(const Scene& scene, const PictureSampler::Settings&
     const auto repeatable = [&](std::uint64_t done) { return replicate_size(done * size) >= size; };
     const bool may_outgrow = !goal.samples && series.samples == 0;
     const auto outgrown = [&](std::uint64_t done) { return may_outgrow && replicate_size((done + 1) * size) > size; };
+    // The size for all the time, at the speed of the last block, if more is left than has gone. What is done is lost then, so that
+    // this is asked after each block.
+    double samples_a_second = 0.0;
+    const auto larger_size = [&]() -> std::optional<std::uint32_t> {
+        constexpr double caution = 0.8;
+        const double seconds = seconds_so_far(), left = *goal.seconds - seconds;
+        if (!may_outgrow || !(left > seconds)) return std::nullopt;
+        const std::uint32_t larger = replicate_size(static_cast<std::uint64_t>(caution * left * samples_a_second));
+        return larger > size ? std::optional(larger) : std::nullopt;
+    };
     // A block is at most a sixteenth of the finished replicates: few nodes are kept, and dropping a block loses little.
     const auto block_after = [&](std::uint64_t done) {
         std::uint64_t block = std::bit_floor(std::max<std::uint64_t>(done / 16, 1));
@@ -136,7 +138,8 @@ RenderedSeries render_series(const Scene& scene, const PictureSampler::Settings&
             const double each = seconds_so_far() / static_cast<double>(done), left = *goal.seconds - seconds_so_far();
             while (block > 1 && static_cast<double>(block) * each > left) block /= 2;
             const bool is_late = seconds_so_far() > cut_off(*goal.seconds, false);
-            if ((each > left && (repeatable(done) || is_late)) || outgrown(done)) {
+            series.larger_replicates = larger_size();
+            if ((each > left && (repeatable(done) || is_late)) || series.larger_replicates || outgrown(done)) {
                 series.outcome = Outcome::time_reached;
                 break;
             }
@@ -171,6 +174,7 @@ RenderedSeries render_series(const Scene& scene, const PictureSampler::Settings&
         memory = series.moments.add(std::move(*node));
         done += block;
         series.samples = done * size;
+        samples_a_second = static_cast<double>(block * size) / (seconds_so_far() - series.seconds);
         series.seconds = seconds_so_far();
 
         const bool last = goal.samples && series.samples >= *goal.samples;

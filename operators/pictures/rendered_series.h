@@ -34,6 +34,8 @@ struct RenderedSeries {
     Outcome outcome = Outcome::samples_reached;
     std::uint32_t replicate_size = 1;
     std::uint64_t samples = 0;
+    // Set if it ended because the time that is left is enough for replicates of this size, from the beginning.
+    std::optional<std::uint32_t> larger_replicates = {};
     std::vector<std::uint32_t> sizes = {};  // of pixels in a replicate, where they differ (sample_layout.h); of `merged`, there
     // Where renders of several seeds were merged: whose replicates come one after the other. Otherwise empty.
     std::vector<SeedRange> merged = {};
@@ -64,15 +66,11 @@ std::uint64_t in_whole_replicates(std::uint64_t samples);
 
 // A render that is stopped by time or error ends at a number of samples from which replicate_size() gives the same replicate size
 // again, and so does one that is interrupted, unless that would take long. If the time is enough for more replicates than that,
-// because they are small, it ends before the time is up: larger replicates would be better (larger_replicates()). One that goes on
+// because they are small, it ends before the time is up: larger replicates would be better (larger_replicates). One that goes on
 // from what is there keeps its replicates, whatever their number. An interrupted render drops the samples that not all pixels
 // have; if that is all of them, it renders one sample per pixel. The bits do not depend on how a render was cut, nor on the
 // helpers, and the seconds of the goal are those of all parts.
 RenderedSeries render_series(const Scene& scene, const PictureSampler::Settings& settings, const SamplingGoal& goal,
                              const Watch& watch = {}, Continuation continuation = {}, Helpers* helpers = nullptr);
-
-// The size of replicates with which to render anew what ended before its time was up: if more time is left for that than it has
-// taken. Otherwise nothing.
-std::optional<std::uint32_t> larger_replicates(const RenderedSeries& series, const SamplingGoal& goal);
 
 }  // namespace neumann

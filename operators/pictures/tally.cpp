@@ -28,6 +28,7 @@ void Tally::merge(const Tally& other) {
         largest[q].merge(other.largest[q]);
         non_finite_count[q] += other.non_finite_count[q];
     }
+    shared_rays += other.shared_rays;
     given_up += other.given_up;
     chains.resize(std::max(chains.size(), other.chains.size()));
     for (std::size_t q = 0; q < other.chains.size(); ++q) chains[q].merge(other.chains[q]);

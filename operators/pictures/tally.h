@@ -26,6 +26,7 @@ struct Tally {
 
     std::vector<std::uint64_t> rays;
     std::vector<LargestSamples> largest;  // by the samples' largest channel
+    std::uint64_t shared_rays = 0;        // of `rays`, those for the points that all pixels share
     std::uint64_t given_up = 0;
     std::vector<std::uint64_t> non_finite_count;
     std::vector<NonFiniteSample> non_finite;  // the first ones in order of bounce, pixel and sample

@@ -36,7 +36,8 @@ protected:
         s.walk.bounces = bounces;
         s.walk.rest_probability = 0.7;
         s.replicate_size = size;
-        set_up(method, scene, bounces, 5, 1e9, s);
+        Prepared prepared(5);
+        set_up(method, scene, bounces, 1e9, s, prepared);
         return s;
     }
 };

@@ -96,7 +96,8 @@ inline SamplingSettings settings_of(const Scene& scene, const Method& method, in
     settings.walk.bounces = bounces;
     settings.walk.rest_probability = rest;
     settings.replicate_size = is_biased(method) ? 4 : 16;
-    set_up(method, scene, bounces, seed, 1e9, settings);
+    Prepared prepared(seed);
+    set_up(method, scene, bounces, 1e9, settings, prepared);
     return settings;
 }
 

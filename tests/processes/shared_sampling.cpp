@@ -27,7 +27,8 @@ SamplingSettings settings(const std::string& word, const Scene& scene) {
     all.walk.rest_probability = all.generator == PathGenerator::pointwise ? 0.0 : 0.7;
     all.walk.give_up = 4;
     all.replicate_size = 4;
-    set_up(method, scene, bounces, seed, 1e9, all);
+    Prepared prepared(seed);
+    set_up(method, scene, bounces, 1e9, all, prepared);
     return all;
 }
 

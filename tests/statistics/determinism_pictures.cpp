@@ -33,7 +33,8 @@ PictureSampler::Settings made_settings(const Case& c, std::uint64_t seed) {
     settings.walk.rest_probability = settings.generator == PathGenerator::pointwise ? 0.0 : 0.7;
     settings.walk.give_up = 4;
     settings.replicate_size = 4;
-    set_up(method, cornell_box(), bounces, seed, 1e9, settings);
+    Prepared prepared(seed);
+    set_up(method, cornell_box(), bounces, 1e9, settings, prepared);
     return settings;
 }
 const PictureSampler::Settings& settings(const Case& c, std::uint64_t seed = 3) {
