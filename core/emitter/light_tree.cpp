@@ -26,7 +26,9 @@ Cone around_both(const Cone& a, const Cone& b) {
     const double angle = 0.5 * (a.angle + between + b.angle);
     const Vec3 across = b.axis - a.axis * glm::dot(a.axis, b.axis);
     const double length = glm::length(across);
-    if (angle >= pi || !(length > 0.0)) return {a.axis, pi};
+    // Of opposite ones the plane in which to turn is rounding alone.
+    constexpr double opposite = 1e-6;
+    if (angle >= pi || !(length > opposite)) return {a.axis, pi};
     const double turn = angle - a.angle;
     return {a.axis * std::cos(turn) + across * (std::sin(turn) / length), angle};
 }
@@ -80,7 +82,7 @@ struct LightTree::Builder {
         // Rounded to floats, the sphere around the box still holds it, and the cone its normals.
         node.center = as_floats(made.bounds.center());
         const Vec3 center = as_vec3(node.center);
-        const double far = std::max(glm::distance(center, made.bounds.low), glm::distance(center, made.bounds.high));
+        const double far = glm::length(glm::max(glm::abs(center - made.bounds.low), glm::abs(made.bounds.high - center)));
         constexpr double rounding = 1e-6;
         node.radius = static_cast<float>(far * (1.0 + rounding)) + std::numeric_limits<float>::min();
         node.axis = as_floats(made.cone.axis);

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -78,20 +77,6 @@ Relation relation_to(const Triangle& t, const std::array<Vec3, 3>& corners_of_t,
     if (is_apart(t, largest, 4.0 * distance)) return Relation::apart;
     if (!share_corner(corners_of_t, corners)) return Relation::other;
     return continues(t, corners, largest) ? Relation::continues : Relation::joined;
-}
-
-// Whether Triangle::is_near_edge() may say so once the triangle is examined.
-bool may_be_near_edge(const Vec2& w, double cosine) {
-    const float widest_strip = std::nextafter(static_cast<float>(along_edges), 1.0f);
-    return std::min({w.x, w.y, 1.0 - w.x - w.y}) * std::abs(cosine) < widest_strip;
-}
-
-// One point in four, by its bits. To examine a face takes as long as some twenty questions what is near a point, and of a fine
-// mesh most faces are hit a few times; so a face is examined when it is first asked for such a point.
-bool is_picked(const Vec3& p) {
-    std::uint64_t bits = 0;
-    for (int axis = 0; axis < 3; ++axis) bits = (bits ^ std::bit_cast<std::uint64_t>(p[axis])) * 0x9e3779b97f4a7c15ull;
-    return bits >> 62 == 0;
 }
 
 }  // namespace
@@ -222,10 +207,7 @@ bool Neighbours::is_close(const SurfacePoint& p) const {
     if (keeps_nothing_) return is_near_other(p, 0.0);
     if (const TriangleOfFace t = faces_.triangle(f)) {
         const Vec2 w = t->weights(p.position);
-        if (!t->is_examined()) {
-            if (!may_be_near_edge(w, 1.0) && !is_picked(p.position)) return is_near_other(p, 0.0);
-            examine(f);
-        }
+        if (!t->is_examined()) examine(f);
         if (t->is_crowded()) return is_near_other(p, 0.0);
         if (t->is_clear(w)) return false;
         if (t->is_near_edge(w)) return around(p).size() > 1;
@@ -242,10 +224,6 @@ bool Neighbours::may_hide(const SurfacePoint& p, double cosine) const {
     if (keeps_nothing_) return grazes || is_near_other(p, aside);
     if (const TriangleOfFace t = faces_.triangle(f)) {
         const Vec2 w = t->weights(p.position);
-        if (!t->is_examined()) {
-            if (!may_be_near_edge(w, cosine) && !grazes && !is_picked(p.position)) return is_near_other(p, aside);
-            examine(f);
-        }
         if (t->is_crowded()) return grazes || is_near_other(p, aside);
         if (t->is_clear(w, cosine)) return false;
         if (t->is_near_edge(w, cosine)) return true;

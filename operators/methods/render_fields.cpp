@@ -176,7 +176,7 @@ BounceSeries render_by(M m, const RenderJob& job) {
             });
         };
     auto rendered = searches ? render_fields_to_goal(job.scene, settings,
-                                                     choose_goal(goal, settings, given, job.clock.seconds() + seconds_before),
+                                                     choose_goal(goal, settings, given, job.seconds_gone() + seconds_before),
                                                      job.watch, team.get(), &saving, see)
                              : render_fields_once(job.scene, settings, job.watch, team.get(), &saving);
     if (!rendered) throw Stopped("interrupted before the pictures were finished: none was written");
