@@ -38,45 +38,25 @@ bool holds(const Bounds& box, const Vec3& p) {
     return glm::all(glm::lessThanEqual(box.low, p)) && glm::all(glm::lessThanEqual(p, box.high));
 }
 
-bool share_corner(const std::array<Vec3, 3>& a, const std::array<Vec3, 3>& b) {
-    return std::find_first_of(a.begin(), a.end(), b.begin(), b.end()) != a.end();
+bool share_corner(const DoubleFaces& faces, const Face& a, const Face& b) {
+    if (!faces.is_triangle(a) || !faces.is_triangle(b)) return false;
+    const auto of_a = faces.vertices(a), of_b = faces.vertices(b);
+    return std::find_first_of(of_a.begin(), of_a.end(), of_b.begin(), of_b.end()) != of_a.end();
 }
 
-// Of the corners of another triangle, the largest weight of each corner of t: below 0, it lies beyond the edge across.
-Vec3 largest_weights(const Triangle& t, const std::array<Vec3, 3>& corners) {
-    Vec3 largest(-std::numeric_limits<double>::infinity());
-    for (const Vec3& corner : corners) {
+// For two triangles that share a corner: whether b continues a beyond one of its edges without a sharp bend. Then a displaced ray
+// that starts beside a, or ends on either of them, is still on the right side of both.
+bool continues(const DoubleFaces& faces, const Face& a, const Face& b) {
+    constexpr double bend = 0.5, rounding = 1e-12;
+    const TriangleOfFace of_a = faces.triangle(a), of_b = faces.triangle(b);
+    const Triangle &t = *of_a, &other = *of_b;
+    if (std::abs(glm::dot(t.normal(), other.normal())) < bend) return false;
+    Vec3 largest(-std::numeric_limits<double>::infinity());  // of b's corners, the weights in a
+    for (const Vec3& corner : faces.vertices(b)) {
         const Vec2 w = t.weights(corner);
         largest = glm::max(largest, Vec3(w.x, w.y, 1.0 - w.x - w.y));
     }
-    return largest;
-}
-
-// Whether an edge of t parts it from the other triangle, by more than this distance.
-bool is_apart(const Triangle& t, const Vec3& largest_weights_of_other, double distance) {
-    const Vec3& w = largest_weights_of_other;
-    return w.x < -distance * glm::length(t.dual1()) || w.y < -distance * glm::length(t.dual2()) ||
-           w.z < -distance * glm::length(t.dual1() + t.dual2());
-}
-
-// For a triangle that shares a corner with t: whether it continues t beyond an edge without a sharp bend. Then a displaced ray that
-// starts beside t, or ends on either of them, is still on the right side of both.
-bool continues(const Triangle& t, const std::array<Vec3, 3>& corners, const Vec3& largest_weights_of_corners) {
-    constexpr double bend = 0.5, rounding = 1e-12;
-    const Vec3& w = largest_weights_of_corners;
-    return std::min({w.x, w.y, w.z}) <= rounding &&
-           std::abs(glm::dot(t.normal(), Triangle::normal(corners[0], corners[1], corners[2]))) >= bend;
-}
-
-// What a triangle is to another one, t, which has these corners.
-enum class Relation { apart, continues, joined, other };
-// `distance`: from which on it is apart. (At sharp corners, DoubleFaces::is_near() takes more than a distance.)
-Relation relation_to(const Triangle& t, const std::array<Vec3, 3>& corners_of_t, const std::array<Vec3, 3>& corners,
-                     double distance) {
-    const Vec3 largest = largest_weights(t, corners);
-    if (is_apart(t, largest, 4.0 * distance)) return Relation::apart;
-    if (!share_corner(corners_of_t, corners)) return Relation::other;
-    return continues(t, corners, largest) ? Relation::continues : Relation::joined;
+    return std::min({largest.x, largest.y, largest.z}) <= rounding;
 }
 
 }  // namespace
@@ -171,15 +151,12 @@ Neighbours::State Neighbours::state_of_round(const Face& f) const {
     return state.load(std::memory_order_acquire);
 }
 
-double Neighbours::reach_of_close_points(const Face& f, const Face& other, double aside) const {
+double Neighbours::reach_of_close_points(const Face& f, const Face& other) const {
     const double errors = faces_.error(f) + faces_.error(other);
-    Relation relation = Relation::other;
-    if (const TriangleOfFace t = faces_.triangle(f); t && faces_.is_triangle(other))
-        relation = relation_to(*t, faces_.vertices(f), faces_.vertices(other), reach_in_errors * errors + aside);
-    if (relation == Relation::apart || relation == Relation::continues) return 0.0;
+    const bool joined = share_corner(faces_, f, other);
+    if (joined && continues(faces_, f, other)) return 0.0;
     const Bounds bounds = faces_.bounds(f);
-    const bool touch =
-        relation == Relation::joined || close_region(faces_, f, other, double_rounding(bounds.low, largest_component(bounds.high)));
+    const bool touch = joined || close_region(faces_, f, other, double_rounding(bounds.low, largest_component(bounds.high)));
     return touch ? errors : reach(f, other);
 }
 
@@ -192,7 +169,7 @@ bool Neighbours::is_near_other(const SurfacePoint& p, double aside) const {
         const Bounds bounds = faces_.bounds(other);
         const double most = reach(p.error + faces_.error(other), std::min(size, 2.0 * bounds.radius())) + aside;
         if (!holds(bounds.grown(most), p.position) || !faces_.is_near(other, p.position, most)) return false;
-        const double reach = reach_of_close_points(f, other, aside);
+        const double reach = reach_of_close_points(f, other);
         return reach > 0.0 && faces_.is_near(other, p.position, reach + aside);
     };
     const auto may_be_near = [&](const Large& large) {
@@ -223,8 +200,8 @@ bool Neighbours::may_hide(const SurfacePoint& p, double cosine) const {
     const double aside = largest_error_ / std::abs(cosine);
     if (keeps_nothing_) return grazes || is_near_other(p, aside);
     if (const TriangleOfFace t = faces_.triangle(f)) {
-        const Vec2 w = t->weights(p.position);
         if (t->is_crowded()) return grazes || is_near_other(p, aside);
+        const Vec2 w = t->weights(p.position);
         if (t->is_clear(w, cosine)) return false;
         if (t->is_near_edge(w, cosine)) return true;
     } else if (const State state = state_of_round(f); state != State::not_clear) {
@@ -236,30 +213,17 @@ bool Neighbours::may_hide(const SurfacePoint& p, double cosine) const {
 Neighbours::Others Neighbours::others_around(const Face& f) const {
     const Bounds bounds = faces_.bounds(f);
     const Vec3 center = bounds.center();
-    const double near = reach_in_errors * (faces_.error(f) + error_of_rest_) + largest_error_ / Triangle::grazing,
-                 distance = bounds.radius() + near;
-    const TriangleOfFace t = faces_.triangle(f);
-    const std::array<Vec3, 3> corners = t ? faces_.vertices(f) : std::array<Vec3, 3>{};
+    const double distance =
+        bounds.radius() + reach_in_errors * (faces_.error(f) + error_of_rest_) + largest_error_ / Triangle::grazing;
     std::vector<Face> others;
     for (const Large& large : large_) others.push_back(large.face);
-    std::vector<Face> within;
     if (error_of_rest_ > 0.0 && caster_->any_near(center, distance, [&](const Face& other) {
-            // In a fine mesh most are told by their corners, without the rest of their data.
-            const bool by_corners = t && faces_.is_triangle(other);
-            const std::array<Vec3, 3> of_other = by_corners ? faces_.vertices(other) : std::array<Vec3, 3>{};
-            Bounds box = by_corners ? Bounds() : faces_.bounds(other);
-            if (by_corners)
-                for (const Vec3& corner : of_other) box.add(corner);
-            if (glm::length(glm::clamp(center, box.low, box.high) - center) > distance) return false;
-            within.push_back(other);
-            if (by_corners) {
-                const Relation relation = relation_to(*t, corners, of_other, near);
-                if (relation == Relation::apart || relation == Relation::continues) return within.size() > crowd;
-            }
-            others.push_back(other);
-            return within.size() > crowd;
+            const Bounds of_other = faces_.bounds(other);
+            const Vec3 nearest = glm::clamp(center, of_other.low, of_other.high);
+            if (glm::length(nearest - center) <= distance) others.push_back(other);
+            return others.size() - large_.size() > crowd;
         }))
-        return {std::move(within), true};
+        return {{others.begin() + static_cast<std::ptrdiff_t>(large_.size()), others.end()}, true};
     std::sort(others.begin(), others.end());
     others.erase(std::unique(others.begin(), others.end()), others.end());
     return {std::move(others)};
@@ -275,8 +239,7 @@ void Neighbours::mark_near_others(const Face& f, int column, int row, int square
     const double error = faces_.error(f), aside = largest_error_ / Triangle::grazing;
     const auto may_be_near = [&](const Face& other, double error_of_other, const Bounds& of_other) {
         const double most = reach_in_errors * (error + error_of_other) + aside;
-        return !(other == f) && !intersection(bounds.grown(most), of_other).is_empty() &&
-               reach_of_close_points(f, other, aside) > 0.0;
+        return !(other == f) && !intersection(bounds.grown(most), of_other).is_empty() && reach_of_close_points(f, other) > 0.0;
     };
     std::size_t asked = 0;
     const bool near =
@@ -330,7 +293,7 @@ void Neighbours::examine(const Face& f) const {
         if (other == f) continue;
         const double errors = error + faces_.error(other);
         if (intersection(bounds.grown(reach_in_errors * errors + aside), faces_.bounds(other)).is_empty()) continue;
-        const double near = reach_of_close_points(f, other, aside);
+        const double near = reach_of_close_points(f, other);
         if (near == 0.0) continue;
         const auto steep = close_region(faces_, f, other, near + largest_error_);
         if (steep && steep->from_corner <= along_edges) {

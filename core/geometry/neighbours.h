@@ -72,10 +72,9 @@ private:
         Boxes boxes;
         bool crowded = false;
     };
-    // Points of f that are nearer than this to the other face are close; 0 if none of f is that near, plus `aside`, or if the other
-    // continues f.
-    double reach_of_close_points(const Face& f, const Face& other, double aside) const;
-    // Whether another face is that near, plus `aside`: by looking for it.
+    // Points of f that are nearer than this to the other face are close; 0 if the other continues f.
+    double reach_of_close_points(const Face& f, const Face& other) const;
+    // Where nothing is cached: whether another face is that near, plus `aside`.
     bool is_near_other(const SurfacePoint& p, double aside) const;
     void examine(const Face& f) const;
     // The faces that may have close points on f, or as many of them as are a crowd.
