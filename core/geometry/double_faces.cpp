@@ -119,6 +119,20 @@ Bounds DoubleFaces::bounds(const Face& f) const {
     return is_triangle(f) ? corners_of(shape, f.primitive).bounds() : bounds_of(shape);
 }
 
+void DoubleFaces::prefetch(std::span<const Face> faces) const {
+    const auto is_stored = [&](const Face& f) { return !triangles_[f.shape].empty(); };
+    const auto mesh = [&](const Face& f) -> const TriangleMesh& { return std::get<TriangleMesh>((*shapes_)[f.shape]); };
+    for (const Face& f : faces)
+        if (is_stored(f)) {
+            const char* lines = reinterpret_cast<const char*>(&triangles_[f.shape][f.primitive]);
+            for (std::size_t line = 0; line < sizeof(Triangle); line += 64) __builtin_prefetch(lines + line);
+            __builtin_prefetch(&mesh(f).triangles[f.primitive]);
+        }
+    for (const Face& f : faces)
+        if (is_stored(f))
+            for (const std::uint32_t vertex : mesh(f).triangles[f.primitive]) __builtin_prefetch(&mesh(f).vertices[vertex]);
+}
+
 std::vector<Face> DoubleFaces::all() const {
     std::vector<Face> faces;
     for (std::uint32_t shape = 0; shape < shapes_->size(); ++shape) {

@@ -49,6 +49,8 @@ public:
         return of_shape.empty() ? errors_[f.shape] : of_shape[f.primitive].error();
     }
     Bounds bounds(const Face& f) const;
+    // Has memory fetch the triangles and corners of faces that are asked for next, all at a time. Of a fine mesh they are in no cache.
+    void prefetch(std::span<const Face> faces) const;
     // Diameter of the sphere around the face's bounding box.
     double size(const Face& f) const { return 2.0 * bounds(f).radius(); }
     // Without those of instances.

@@ -90,7 +90,7 @@ SurfacePoint Geometry::round_point(const Face& face, const RoundPoint& p) const 
     return {p.position, p.normal, error_[face.shape], face.shape, face.primitive};
 }
 
-void Geometry::put_near_edge(const Vec3& origin, const Vec3& direction, const RayCaster::Hit& hit, SurfacePoint& p) const {
+bool Geometry::put_near_edge(const Vec3& origin, const Vec3& direction, const RayCaster::Hit& hit, SurfacePoint& p) const {
     const TriangleOfFace t = neighbours_->faces().triangle({hit.shape, hit.primitive});
     const Triangle::Meeting m = t->meet(origin, direction);
     Vec3 position = m.position;
@@ -100,27 +100,37 @@ void Geometry::put_near_edge(const Vec3& origin, const Vec3& direction, const Ra
         position = t->near(m, exchanged ? hit.v : hit.u, exchanged ? hit.u : hit.v, edges(hit.shape, hit.primitive));
     }
     p = {position, t->normal(), t->error(), hit.shape, hit.primitive};
+    return !t->is_missed(m);
 }
 
 bool Geometry::put_among_others(const RayStart& start, const Vec3& direction, const RayCaster::Hit& hit, SurfacePoint& p) const {
-    SurfacePoint found = hit_among_others(start, direction, hit);
-    const bool unsure = found.close || neighbours_->may_hide(found, glm::dot(direction, found.normal));
-    if (unsure && !settle(start, direction, found)) return false;
+    SurfacePoint found;
+    const bool sure = put_alone(start.position, direction, hit, found);
+    if (neighbours_->may_hide(found, glm::dot(direction, found.normal))) {
+        const StartedRay ray{start, direction};
+        look_around(found, &ray);
+        if (!settle(start, direction, found)) return false;
+    } else if (!sure) {
+        move_beside(start, direction, found);
+    }
     p = found;
     return true;
 }
 
 SurfacePoint Geometry::hit_among_others(const RayStart& start, const Vec3& direction, const RayCaster::Hit& hit) const {
-    const Vec3& origin = start.position;
     SurfacePoint p;
-    if (!neighbours_->faces().is_triangle({hit.shape, hit.primitive}))
-        p = round_point({hit.shape, hit.primitive},
-                        hit_round((*shapes_)[hit.shape], origin, direction, hit.distance, error_[hit.shape]));
-    else
-        put_near_edge(origin, direction, hit, p);
+    const bool sure = put_alone(start.position, direction, hit, p);
     const StartedRay ray{start, direction};
     look_around(p, &ray);
+    if (!sure && !p.close) move_beside(start, direction, p);
     return p;
+}
+
+bool Geometry::put_alone(const Vec3& origin, const Vec3& direction, const RayCaster::Hit& hit, SurfacePoint& p) const {
+    const Face face{hit.shape, hit.primitive};
+    if (neighbours_->faces().is_triangle(face)) return put_near_edge(origin, direction, hit, p);
+    p = round_point(face, hit_round((*shapes_)[face.shape], origin, direction, hit.distance, error_[face.shape]));
+    return true;
 }
 
 void Geometry::look_around(SurfacePoint& p, const StartedRay* ray) const {
@@ -136,6 +146,13 @@ bool Geometry::settle(const RayStart& start, const Vec3& direction, SurfacePoint
     if (first && first->face != own && first->distance <= distances[0])
         p = point_on(first->face, {start, direction}, first->distance);
     return true;
+}
+
+void Geometry::move_beside(const RayStart& start, const Vec3& direction, SurfacePoint& p) const {
+    const auto first = neighbours_->first(neighbours_->around(p), start, direction);
+    if (!first) return;
+    p = point_on(first->face, {start, direction}, first->distance);
+    if (p.close) settle(start, direction, p);
 }
 
 SurfacePoint Geometry::bare_point_on(const Face& face, const Vec3& position) const {

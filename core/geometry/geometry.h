@@ -197,7 +197,12 @@ private:
     }
     bool put_among_others(const RayStart& start, const Vec3& direction, const RayCaster::Hit& hit, SurfacePoint& p) const;
     SurfacePoint hit_among_others(const RayStart& start, const Vec3& direction, const RayCaster::Hit& hit) const;
-    void put_near_edge(const Vec3& origin, const Vec3& direction, const RayCaster::Hit& hit, SurfacePoint& p) const;
+    // The hit by itself, whatever else is near. Returns false if the ray passes beside the face that Embree found, within Embree's
+    // rounding; then p is on its edge.
+    bool put_alone(const Vec3& origin, const Vec3& direction, const RayCaster::Hit& hit, SurfacePoint& p) const;
+    bool put_near_edge(const Vec3& origin, const Vec3& direction, const RayCaster::Hit& hit, SurfacePoint& p) const;
+    // Moves such a p to the face around it that the ray meets in double, if there is one.
+    void move_beside(const RayStart& start, const Vec3& direction, SurfacePoint& p) const;
     SurfacePoint round_point(const Face& face, const RoundPoint& p) const;
     SurfacePoint on_triangle(const Triangle& t, std::uint32_t shape, std::uint32_t primitive, const Vec3& position) const {
         return {t.at(position, [&] { return edges(shape, primitive); }), t.normal(), t.error(), shape, primitive};

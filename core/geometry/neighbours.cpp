@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -57,6 +58,14 @@ bool continues(const DoubleFaces& faces, const Face& a, const Face& b) {
         largest = glm::max(largest, Vec3(w.x, w.y, 1.0 - w.x - w.y));
     }
     return std::min({largest.x, largest.y, largest.z}) <= rounding;
+}
+
+// One point in four, by its bits. To examine a face takes as long as some eight questions what is near a point, and most faces of
+// a fine mesh are hit a few times: a face is examined when it is first asked for such a point.
+bool is_picked(const Vec3& p) {
+    std::uint64_t bits = 0;
+    for (int axis = 0; axis < 3; ++axis) bits = (bits ^ std::bit_cast<std::uint64_t>(p[axis])) * 0x9e3779b97f4a7c15ull;
+    return bits >> 62 == 0;
 }
 
 }  // namespace
@@ -136,9 +145,9 @@ void Neighbours::part(SurfacePoint& p, const StartedRay* ray) const {
     }
 }
 
-bool Neighbours::has_near(const SurfacePoint& p, double aside) const {
+bool Neighbours::is_in_boxes(const SurfacePoint& p, double aside) const {
     const Surroundings& around = surroundings_.find({p.shape, p.primitive})->second;
-    if (around.crowded) return is_near_other(p, aside);
+    if (around.crowded) return true;
     const Boxes& boxes = around.boxes;
     const auto held = boxes.qbegin(index::intersects(Corner(p.position.x, p.position.y, p.position.z)));
     return std::any_of(held, boxes.qend(),
@@ -151,47 +160,49 @@ Neighbours::State Neighbours::state_of_round(const Face& f) const {
     return state.load(std::memory_order_acquire);
 }
 
-double Neighbours::reach_of_close_points(const Face& f, const Face& other) const {
+Neighbours::Reach Neighbours::reach_of_close_points(const Face& f, const Face& other) const {
     const double errors = faces_.error(f) + faces_.error(other);
     const bool joined = share_corner(faces_, f, other);
-    if (joined && continues(faces_, f, other)) return 0.0;
+    if (joined && continues(faces_, f, other)) return {0.0, true};
     const Bounds bounds = faces_.bounds(f);
     const bool touch = joined || close_region(faces_, f, other, double_rounding(bounds.low, largest_component(bounds.high)));
-    return touch ? errors : reach(f, other);
+    return {touch ? errors : reach(f, other), touch};
 }
 
 bool Neighbours::is_near_other(const SurfacePoint& p, double aside) const {
     const Face f{p.shape, p.primitive};
     const double size = faces_.size(f);
-    // First by the box of the other face: most are not that near.
     const auto is_near = [&](const Face& other) {
-        if (other == f) return false;
-        const Bounds bounds = faces_.bounds(other);
-        const double most = reach(p.error + faces_.error(other), std::min(size, 2.0 * bounds.radius())) + aside;
-        if (!holds(bounds.grown(most), p.position) || !faces_.is_near(other, p.position, most)) return false;
-        const double reach = reach_of_close_points(f, other);
-        return reach > 0.0 && faces_.is_near(other, p.position, reach + aside);
+        // First without the other's corners, which are elsewhere in memory: most are not that near.
+        if (other == f || !faces_.is_near(other, p.position, reach(faces_.error(f) + faces_.error(other), size) + aside))
+            return false;
+        const double near = reach_of_close_points(f, other).distance;
+        return near > 0.0 && holds(faces_.bounds(other).grown(near + aside), p.position) &&
+               faces_.is_near(other, p.position, near + aside);
     };
     const auto may_be_near = [&](const Large& large) {
-        return holds(large.bounds.grown(reach_in_errors * (p.error + large.error) + aside), p.position) && is_near(large.face);
+        return holds(large.bounds.grown(reach_in_errors * (faces_.error(f) + large.error) + aside), p.position) &&
+               is_near(large.face);
     };
     return std::any_of(large_.begin(), large_.end(), may_be_near) ||
-           (error_of_rest_ > 0.0 && caster_->any_near(p.position, reach(p.error + error_of_rest_, size) + aside, is_near));
+           (error_of_rest_ > 0.0 && caster_->any_near(p.position, reach(faces_.error(f) + error_of_rest_, size) + aside, is_near));
 }
 
 bool Neighbours::is_close(const SurfacePoint& p) const {
     const Face f{p.shape, p.primitive};
     if (keeps_nothing_) return is_near_other(p, 0.0);
     if (const TriangleOfFace t = faces_.triangle(f)) {
-        const Vec2 w = t->weights(p.position);
-        if (!t->is_examined()) examine(f);
-        if (t->is_crowded()) return is_near_other(p, 0.0);
-        if (t->is_clear(w)) return false;
-        if (t->is_near_edge(w)) return around(p).size() > 1;
-    } else if (const State state = state_of_round(f); state != State::not_clear) {
-        return state == State::crowded && is_near_other(p, 0.0);
+        if (!t->is_examined() && is_picked(p.position)) examine(f);
+        if (t->is_examined() && !t->is_crowded()) {
+            const Vec2 w = t->weights(p.position);
+            if (t->is_clear(w)) return false;
+            if (!t->is_near_edge(w) && !is_in_boxes(p, 0.0)) return false;
+        }
+    } else if (const State state = state_of_round(f);
+               state == State::clear || (state == State::not_clear && !is_in_boxes(p, 0.0))) {
+        return false;
     }
-    return has_near(p, 0.0);
+    return is_near_other(p, 0.0);
 }
 
 bool Neighbours::may_hide(const SurfacePoint& p, double cosine) const {
@@ -200,14 +211,17 @@ bool Neighbours::may_hide(const SurfacePoint& p, double cosine) const {
     const double aside = largest_error_ / std::abs(cosine);
     if (keeps_nothing_) return grazes || is_near_other(p, aside);
     if (const TriangleOfFace t = faces_.triangle(f)) {
-        if (t->is_crowded()) return grazes || is_near_other(p, aside);
-        const Vec2 w = t->weights(p.position);
-        if (t->is_clear(w, cosine)) return false;
-        if (t->is_near_edge(w, cosine)) return true;
-    } else if (const State state = state_of_round(f); state != State::not_clear) {
-        return state == State::crowded && (grazes || is_near_other(p, aside));
+        if (!t->is_examined() && (grazes || is_picked(p.position))) examine(f);
+        if (t->is_examined() && !t->is_crowded()) {
+            const Vec2 w = t->weights(p.position);
+            if (t->is_clear(w, cosine)) return false;
+            if (!grazes && !t->is_near_edge(w, cosine) && !is_in_boxes(p, aside)) return false;
+        }
+    } else if (const State state = state_of_round(f);
+               state == State::clear || (state == State::not_clear && !grazes && !is_in_boxes(p, aside))) {
+        return false;
     }
-    return grazes || has_near(p, aside);
+    return grazes || is_near_other(p, aside);
 }
 
 Neighbours::Others Neighbours::others_around(const Face& f) const {
@@ -218,12 +232,11 @@ Neighbours::Others Neighbours::others_around(const Face& f) const {
     std::vector<Face> others;
     for (const Large& large : large_) others.push_back(large.face);
     if (error_of_rest_ > 0.0 && caster_->any_near(center, distance, [&](const Face& other) {
-            const Bounds of_other = faces_.bounds(other);
-            const Vec3 nearest = glm::clamp(center, of_other.low, of_other.high);
-            if (glm::length(nearest - center) <= distance) others.push_back(other);
+            others.push_back(other);
             return others.size() - large_.size() > crowd;
         }))
         return {{others.begin() + static_cast<std::ptrdiff_t>(large_.size()), others.end()}, true};
+    faces_.prefetch(others);
     std::sort(others.begin(), others.end());
     others.erase(std::unique(others.begin(), others.end()), others.end());
     return {std::move(others)};
@@ -239,7 +252,8 @@ void Neighbours::mark_near_others(const Face& f, int column, int row, int square
     const double error = faces_.error(f), aside = largest_error_ / Triangle::grazing;
     const auto may_be_near = [&](const Face& other, double error_of_other, const Bounds& of_other) {
         const double most = reach_in_errors * (error + error_of_other) + aside;
-        return !(other == f) && !intersection(bounds.grown(most), of_other).is_empty() && reach_of_close_points(f, other) > 0.0;
+        return !(other == f) && !intersection(bounds.grown(most), of_other).is_empty() &&
+               reach_of_close_points(f, other).distance > 0.0;
     };
     std::size_t asked = 0;
     const bool near =
@@ -293,9 +307,11 @@ void Neighbours::examine(const Face& f) const {
         if (other == f) continue;
         const double errors = error + faces_.error(other);
         if (intersection(bounds.grown(reach_in_errors * errors + aside), faces_.bounds(other)).is_empty()) continue;
-        const double near = reach_of_close_points(f, other);
+        const auto [near, touches] = reach_of_close_points(f, other);
         if (near == 0.0) continue;
-        const auto steep = close_region(faces_, f, other, near + largest_error_);
+        // Where faces touch, the region of oblique rays is at most 1/cosine times as wide: the largest weight is a concave function
+        // of the distance, and not below 0 at the distance 0.
+        const auto steep = touches ? close_region(faces_, f, other, near + largest_error_) : std::nullopt;
         if (steep && steep->from_corner <= along_edges) {
             corner = std::max(corner, steep->from_corner);
         } else if (steep && steep->from_edge <= (is_small(other) ? along_edges_of_small : along_edges)) {
@@ -312,9 +328,10 @@ void Neighbours::examine(const Face& f) const {
         for (const auto& polygon : polygons) cells.mark(polygon);
         kept = &surroundings_.emplace(f, Surroundings{std::move(cells), Boxes(boxes)}).first->second.cells;
     }
-    // Rounded up, and above 0, so that points on an edge are never clear.
+    // Rounded up by more than the weights' rounding, and above 0, so that points on an edge are never clear.
+    const auto rounded_up = [](double weight) { return std::nextafter(static_cast<float>(1.001 * weight), 1.0f); };
     if (const TriangleOfFace t = faces_.triangle(f))
-        t->set_close(std::nextafter(static_cast<float>(strip), 1.0f), std::nextafter(static_cast<float>(corner), 1.0f), kept);
+        t->set_close(rounded_up(strip), rounded_up(corner), kept);
     else
         std::atomic_ref(round_[f.shape]).store(kept ? State::not_clear : State::clear, std::memory_order_release);
 }

@@ -4,11 +4,12 @@
 // Embree holds faces that are displaced by up to their error (SurfacePoint::error), and a ray starts that far from its surface. A
 // point is *close* if another face is nearer than the sum of both errors: a ray could start behind that face, or end on the wrong
 // one of the two. It is also close if a face that does not touch its own is nearer than 64 times that, because a ray with an offset
-// origin sees past it what the point does not see. Which parts of a face are close is computed when the face is first hit, and
-// cached; usually these are strips along edges, a millionth of the scene wide. Of a face with a crowd around it, and where there
-// are instances, nothing is cached, and what is near a point is looked for at each point: else a scene whose faces are long and
-// thin, or share a corner, would take time with the square of their number. Rays of close points are intersected with the faces
-// around them in double, and with all others by Embree.
+// origin sees past it what the point does not see. What is near a point is looked for in Embree's tree. Of a face that is asked for
+// more than a few times it is found out once which parts can have close points at all, usually strips along edges, a millionth of
+// the scene wide; points elsewhere are clear without a search, and the answer is the same. Of a face with a crowd around it, and
+// where there are instances, nothing is kept: else a scene whose faces are long and thin, or share a corner, would take time with
+// the square of their number. Rays of close points are intersected with the faces around them in double, and with all others by
+// Embree.
 #pragma once
 
 #include "core/geometry/double_faces.h"
@@ -36,8 +37,8 @@ public:
 
     // Whether p, on its face, is close to another one.
     bool is_close(const SurfacePoint& p) const;
-    // Whether Embree's ray, whose origin is displaced by rounding, may have hit p's face in place of another one. `cosine`: of the
-    // ray with p's normal.
+    // Whether Embree's ray, whose origin is displaced by rounding, may have hit p's face in place of another one; if not, p is not
+    // close. `cosine`: of the ray with p's normal.
     bool may_hide(const SurfacePoint& p, double cosine) const;
     // Where p, hit by this ray, lies on faces that cross its own, within rounding: moves it along its own face to the side of them
     // from which the ray came, so that rays know on which side of them they start. Without a ray, p stays on the side where it is.
@@ -72,9 +73,12 @@ private:
         Boxes boxes;
         bool crowded = false;
     };
-    // Points of f that are nearer than this to the other face are close; 0 if the other continues f.
-    double reach_of_close_points(const Face& f, const Face& other) const;
-    // Where nothing is cached: whether another face is that near, plus `aside`.
+    struct Reach {
+        double distance;  // points of the face that are nearer than this to the other one are close; 0 if the other continues it
+        bool touches;
+    };
+    Reach reach_of_close_points(const Face& f, const Face& other) const;
+    // Whether another face is that near to p, plus `aside`; by looking for it.
     bool is_near_other(const SurfacePoint& p, double aside) const;
     void examine(const Face& f) const;
     // The faces that may have close points on f, or as many of them as are a crowd.
@@ -89,8 +93,8 @@ private:
     void mark_near_others(const Face& f, int column, int row, int squares, WeightCells& cells) const;
     enum class State : std::uint8_t { unknown, clear, not_clear, crowded };
     State state_of_round(const Face& f) const;
-    // Whether a face in the surroundings of p's face is within its `near` distance plus `aside`.
-    bool has_near(const SurfacePoint& p, double aside) const;
+    // Whether is_near_other() may hold for p: whether a face in the boxes of p's face is within its `near` distance plus `aside`.
+    bool is_in_boxes(const SurfacePoint& p, double aside) const;
     // first(), but for rays that pass an edge within rounding.
     std::optional<Met> nearest(std::span<const Face> faces, const RayStart& start, const Vec3& direction) const;
     // For triangles: whether f lies entirely on the other side of the plane of `own` than `direction`.

@@ -57,6 +57,11 @@ public:
     }
     // Whether this intersection is the hit of a ray for which Embree found the triangle. Otherwise use near(…).
     bool is_hit(const Meeting& m) const { return is_inside(m.weights) && m.distance > 0.0 && rounding_ < 1.0f; }
+    // Whether the ray passes beside the triangle, by more than hits are moved inwards.
+    bool is_missed(const Meeting& m) const {
+        return rounding_ < 1.0f &&
+               (!(m.distance > 0.0) || std::min({m.weights.x, m.weights.y, 1.0 - m.weights.x - m.weights.y}) < -margin_);
+    }
     Vec3 near(const Meeting& m, float embree_u, float embree_v, const Edges& edges) const;
 
     // Where another surface may be within rounding: strips along the edges, where one barycentric weight is small; corners, where

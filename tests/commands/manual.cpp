@@ -47,6 +47,18 @@ protected:
         found.erase("-h,--help");
         return found;
     }
+
+    // The options of the benchmarks that are written in Python, as they declare them.
+    static Options options_of_benchmarks() {
+        Options found;
+        for (const auto& file : std::filesystem::directory_iterator(repository / "tests/bench")) {
+            if (file.path().extension() != ".py") continue;
+            const std::string text = text_of(file.path());
+            const std::regex declared(R"(add_argument\("(--[a-z][\w-]*)")");
+            for (std::sregex_iterator match(text.begin(), text.end(), declared), end; match != end; ++match) found.insert((*match)[1]);
+        }
+        return found;
+    }
     Names commands() const {
         const std::vector<std::string> all = terms(page({}), "COMMANDS");
         return Names(all.begin(), all.end());
@@ -162,6 +174,7 @@ TEST_F(Manual, ReadmeLeadsToTheTextOfEveryCommand) {
 // An option in README.md or anywhere in the manual is one of a command, or of ./test, CMake, mpirun and a benchmark.
 TEST_F(Manual, OptionsThatAreNamedExist) {
     Options known{"--help", "--quick", "--build", "--install", "--prefix", "--array", "--mca", "--entries"};
+    known.merge(options_of_benchmarks());
     for (const std::string& command : commands()) known.merge(options(command));
     std::vector<std::filesystem::path> files = manual();
     files.push_back(repository / "README.md");

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <optional>
 #include <span>
+#include <tuple>
 
 namespace neumann::close_surfaces_test {
 
@@ -151,14 +152,17 @@ SurfacePoint anywhere(const Geometry& geometry, Sampler& random) {
 }
 
 // A point whose distance from the edges of its triangle is logarithmic.
-SurfacePoint near_edges(const Geometry& geometry, Sampler& random) {
-    const auto shape = static_cast<std::uint32_t>(random.next() * static_cast<double>(geometry.shapes().size()));
+SurfacePoint near_edges(const Geometry& geometry, std::uint32_t shape, Sampler& random) {
     const auto primitive = static_cast<std::uint32_t>(random.next() * geometry.primitive_count(shape));
     const std::array<Vec3, 3> corners = corners_of(geometry.shapes()[shape], primitive).at;
     const auto k = static_cast<std::size_t>(3.0 * random.next());
     const Vec3 &a = corners[k], &b = corners[(k + 1) % 3], &c = corners[(k + 2) % 3];
     const double along = random.next(), in = std::pow(10.0, -8.0 * random.next());
     return geometry.point_on_triangle(shape, primitive, glm::mix(glm::mix(a, b, along), c, in));
+}
+SurfacePoint near_edges(const Geometry& geometry, Sampler& random) {
+    const auto shape = static_cast<std::uint32_t>(random.next() * static_cast<double>(geometry.shapes().size()));
+    return near_edges(geometry, shape, random);
 }
 
 TriangleMesh quad(const Vec3& corner, const Vec3& a, const Vec3& b) {
@@ -268,6 +272,69 @@ TEST(CloseSurfaces, AreMetInCrowds) {
             EXPECT_EQ(counts.wrong, 0) << place.name << ", gap " << gap << ", of " << counts.rays << ", close " << counts.close;
             EXPECT_GT(counts.close, 0);
         }
+}
+
+// Triangles of all shapes whose corners are often the same or nearly so, with spheres, discs and a cylinder among them.
+std::vector<Shape> close_jumble(std::uint64_t seed) {
+    Sampler random(seed, 0);
+    random.start(0);
+    const auto corner = [&] {
+        Vec3 p;
+        for (int axis = 0; axis < 3; ++axis) p[axis] = std::floor(3.0 * random.next()) / 2.0;
+        const double off = random.next() < 0.5 ? 0.0 : std::pow(10.0, -9.0 * random.next());
+        return p + off * uniform_sphere(random.next2());
+    };
+    std::vector<Shape> shapes;
+    for (int i = 0; i < 40; ++i) {
+        TriangleMesh mesh{{corner(), corner(), corner()}, {{0, 1, 2}}};
+        if (Triangle::area(mesh.vertices[0], mesh.vertices[1], mesh.vertices[2]) > 1e-8) shapes.emplace_back(std::move(mesh));
+    }
+    for (const double radius : {0.5, 0.5 + 1e-7, 0.25}) shapes.emplace_back(Sphere{corner(), radius});
+    for (const double width : {0.5, 0.01})
+        shapes.emplace_back(make_disk(glm::scale(glm::translate(Mat4(1.0), corner()), Vec3(0.5, width, 1.0))));
+    shapes.emplace_back(Cylinder{corner(), {0, 0, 1}, 1.0, 0.5});
+    return shapes;
+}
+
+// A face keeps where it is close after it has been asked for a few points. Rays in one order and in the other, each on a geometry
+// of its own, find the same.
+TEST(CloseSurfaces, DoNotDependOnWhatWasAskedBefore) {
+    TriangleMesh column = known::prism(400);
+    for (std::size_t i = 0; i < column.vertices.size(); ++i)
+        column.vertices[i] *= i / 2 % 2 == 0 ? Vec3(0.1, 0.1, 1) : Vec3(0.097, 0.097, 1);
+    const Mat4& turned = places[1].to_world;
+    std::vector<std::vector<Shape>> scenes{
+        {transformed(column, turned), transformed(quad({-1, -1, 1e-7}, {2, 0, 0}, {0, 2, 0}), turned)},
+        {transformed(box({0, 0, 0}, {1, 1, 1}), turned), transformed(box({1e-6, -0.3, 0}, {0.5, 0.7, 1e-3}), turned)}};
+    for (std::uint64_t seed = 0; seed < 20; ++seed) scenes.push_back(close_jumble(seed));
+    for (const std::vector<Shape>& shapes : scenes) {
+        constexpr std::uint32_t asked = 20000;
+        const Geometry once(shapes), again(shapes);
+        const auto ask = [](const Geometry& geometry, std::uint32_t i) {
+            Sampler random(i, 0);
+            random.start(0);
+            const auto shape = static_cast<std::uint32_t>(random.next() * static_cast<double>(geometry.shapes().size()));
+            const SurfacePoint from = std::holds_alternative<TriangleMesh>(geometry.shapes()[shape])
+                                          ? near_edges(geometry, shape, random)
+                                          : geometry.point(shape, 0, random.next2());
+            // Half of them graze.
+            Vec3 w = random_direction(random, from.normal);
+            if (random.next() < 0.5) w = glm::normalize(w - from.normal * (glm::dot(w, from.normal) * (1.0 - 0.2 * random.next())));
+            SurfacePoint to = from;
+            const bool hit = geometry.first_hit(from, w, to);
+            return std::tuple(bool{from.close}, from.position, hit, to.shape, std::uint32_t{to.primitive}, bool{to.close},
+                              to.position);
+        };
+        std::vector<decltype(ask(once, 0))> found;
+        int close = 0, differ = 0;
+        for (std::uint32_t i = 0; i < asked; ++i) {
+            found.push_back(ask(once, i));
+            close += std::get<0>(found.back());
+        }
+        for (std::uint32_t i = asked; i-- > 0;) differ += ask(again, i) != found[i];
+        EXPECT_EQ(differ, 0);
+        EXPECT_GT(close, 0);
+    }
 }
 
 // A light without extent may lie on a face, which then hides nothing from it.
