@@ -10,7 +10,7 @@
 #include "core/base/error.h"
 #include "core/geometry/ray_caster.h"
 #include "core/reader/read_scene.h"
-#include "core/scene/shading_normals.h"
+#include "core/scene/normal_maps.h"
 #include "operators/shared/shared_system.h"
 
 #include <fmt/format.h>
@@ -103,7 +103,7 @@ const char* PatchScene::channel_letter(int c) const { return system_->channels()
 
 std::vector<std::string> PatchScene::warnings() const {
     Warnings all = scene_->warnings;
-    if (has_shading_normals(*scene_)) all.add(patches_are_flat);
+    if (has_normal_maps(*scene_)) all.add(patches_are_flat);
     return texts(all);
 }
 

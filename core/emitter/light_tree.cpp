@@ -44,19 +44,20 @@ std::array<float, 3> as_floats(const Vec3& v) {
     return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
 
+// Of the lights below a node.
+struct Made {
+    Bounds bounds;
+    Cone cone;
+    double power;
+    bool all_sides;
+};
+
 }  // namespace
 
 struct LightTree::Builder {
     const std::vector<Light>& lights;
     std::vector<Node>& nodes;
     std::vector<std::uint32_t>& leaves;
-
-    struct Made {
-        Bounds bounds;
-        Cone cone;
-        double power;
-        bool all_sides;
-    };
 
     Made add(std::span<std::uint32_t> some, std::uint32_t parent) {
         const auto own = static_cast<std::uint32_t>(nodes.size());

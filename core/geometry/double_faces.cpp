@@ -119,18 +119,19 @@ Bounds DoubleFaces::bounds(const Face& f) const {
     return is_triangle(f) ? corners_of(shape, f.primitive).bounds() : bounds_of(shape);
 }
 
-void DoubleFaces::prefetch(std::span<const Face> faces) const {
-    const auto is_stored = [&](const Face& f) { return !triangles_[f.shape].empty(); };
-    const auto mesh = [&](const Face& f) -> const TriangleMesh& { return std::get<TriangleMesh>((*shapes_)[f.shape]); };
-    for (const Face& f : faces)
-        if (is_stored(f)) {
-            const char* lines = reinterpret_cast<const char*>(&triangles_[f.shape][f.primitive]);
-            for (std::size_t line = 0; line < sizeof(Triangle); line += 64) __builtin_prefetch(lines + line);
-            __builtin_prefetch(&mesh(f).triangles[f.primitive]);
-        }
-    for (const Face& f : faces)
-        if (is_stored(f))
-            for (const std::uint32_t vertex : mesh(f).triangles[f.primitive]) __builtin_prefetch(&mesh(f).vertices[vertex]);
+void DoubleFaces::prefetch_corners(const Face& f) const {
+    if (triangles_[f.shape].empty()) return;
+    const TriangleMesh& mesh = std::get<TriangleMesh>((*shapes_)[f.shape]);
+    for (const std::uint32_t vertex : mesh.triangles[f.primitive]) __builtin_prefetch(&mesh.vertices[vertex]);
+}
+
+double DoubleFaces::size_at_most(const Face& f) const {
+    const TriangleOfFace t = triangle(f);
+    if (!t) return size(f);
+    // Gradients of weights are edges turned by a right angle, divided by twice the area.
+    const Vec3 &a = t->dual1(), &b = t->dual2();
+    const double longest = std::max({glm::length(a), glm::length(b), glm::length(a + b)}) / glm::length(glm::cross(a, b));
+    return std::isfinite(longest) ? std::sqrt(3.0) * longest : size(f);
 }
 
 std::vector<Face> DoubleFaces::all() const {

@@ -4,10 +4,12 @@
 #include "core/geometry/rounding.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace neumann {
 
@@ -75,10 +77,7 @@ Neighbours::Neighbours(const DoubleFaces& faces, const Giants& giants, const Ray
     std::vector<Face> large = faces_.all();
     for (const Face& f : large) largest_error_ = std::max(largest_error_, faces_.error(f));
     for (std::uint32_t shape = 0; shape < faces_.shapes().size(); ++shape)
-        if (faces_.is_of_instance({shape, 0})) {
-            keeps_nothing_ = true;
-            error_of_rest_ = std::max(error_of_rest_, faces_.error({shape, 0}));
-        }
+        if (faces_.is_of_instance({shape, 0})) error_of_rest_ = std::max(error_of_rest_, faces_.error({shape, 0}));
     largest_error_ = std::max(largest_error_, error_of_rest_);
     if (large.size() > largest_asked_one_by_one) {
         const auto rest = large.begin() + largest_asked_one_by_one;
@@ -171,9 +170,9 @@ Neighbours::Reach Neighbours::reach_of_close_points(const Face& f, const Face& o
 
 bool Neighbours::is_near_other(const SurfacePoint& p, double aside) const {
     const Face f{p.shape, p.primitive};
-    const double size = faces_.size(f);
+    const double size = faces_.size_at_most(f);
     const auto is_near = [&](const Face& other) {
-        // First without the other's corners, which are elsewhere in memory: most are not that near.
+        // First without the other's corners: most are not that near.
         if (other == f || !faces_.is_near(other, p.position, reach(faces_.error(f) + faces_.error(other), size) + aside))
             return false;
         const double near = reach_of_close_points(f, other).distance;
@@ -184,13 +183,21 @@ bool Neighbours::is_near_other(const SurfacePoint& p, double aside) const {
         return holds(large.bounds.grown(reach_in_errors * (faces_.error(f) + large.error) + aside), p.position) &&
                is_near(large.face);
     };
-    return std::any_of(large_.begin(), large_.end(), may_be_near) ||
-           (error_of_rest_ > 0.0 && caster_->any_near(p.position, reach(faces_.error(f) + error_of_rest_, size) + aside, is_near));
+    if (std::any_of(large_.begin(), large_.end(), may_be_near)) return true;
+    if (error_of_rest_ == 0.0) return false;
+    std::array<Face, 16> found;
+    std::size_t count = 0;
+    const auto is_one_near = [&] { return std::any_of(found.begin(), found.begin() + std::exchange(count, 0), is_near); };
+    return caster_->any_near(p.position, reach(faces_.error(f) + error_of_rest_, size) + aside, [&](const Face& other) {
+        faces_.prefetch(other);
+        found[count++] = other;
+        return count == found.size() && is_one_near();
+    }) || is_one_near();
 }
 
 bool Neighbours::is_close(const SurfacePoint& p) const {
     const Face f{p.shape, p.primitive};
-    if (keeps_nothing_) return is_near_other(p, 0.0);
+    if (faces_.is_of_instance(f)) return is_near_other(p, 0.0);
     if (const TriangleOfFace t = faces_.triangle(f)) {
         if (!t->is_examined() && is_picked(p.position)) examine(f);
         if (t->is_examined() && !t->is_crowded()) {
@@ -209,7 +216,7 @@ bool Neighbours::may_hide(const SurfacePoint& p, double cosine) const {
     const Face f{p.shape, p.primitive};
     const bool grazes = std::abs(cosine) < Triangle::grazing;
     const double aside = largest_error_ / std::abs(cosine);
-    if (keeps_nothing_) return grazes || is_near_other(p, aside);
+    if (faces_.is_of_instance(f)) return grazes || is_near_other(p, aside);
     if (const TriangleOfFace t = faces_.triangle(f)) {
         if (!t->is_examined() && (grazes || is_picked(p.position))) examine(f);
         if (t->is_examined() && !t->is_crowded()) {
@@ -232,11 +239,12 @@ Neighbours::Others Neighbours::others_around(const Face& f) const {
     std::vector<Face> others;
     for (const Large& large : large_) others.push_back(large.face);
     if (error_of_rest_ > 0.0 && caster_->any_near(center, distance, [&](const Face& other) {
+            faces_.prefetch(other);
             others.push_back(other);
             return others.size() - large_.size() > crowd;
         }))
         return {{others.begin() + static_cast<std::ptrdiff_t>(large_.size()), others.end()}, true};
-    faces_.prefetch(others);
+    for (const Face& other : others) faces_.prefetch_corners(other);
     std::sort(others.begin(), others.end());
     others.erase(std::unique(others.begin(), others.end()), others.end());
     return {std::move(others)};

@@ -6,10 +6,10 @@
 // one of the two. It is also close if a face that does not touch its own is nearer than 64 times that, because a ray with an offset
 // origin sees past it what the point does not see. What is near a point is looked for in Embree's tree. Of a face that is asked for
 // more than a few times it is found out once which parts can have close points at all, usually strips along edges, a millionth of
-// the scene wide; points elsewhere are clear without a search, and the answer is the same. Of a face with a crowd around it, and
-// where there are instances, nothing is kept: else a scene whose faces are long and thin, or share a corner, would take time with
-// the square of their number. Rays of close points are intersected with the faces around them in double, and with all others by
-// Embree.
+// the scene wide; points elsewhere are clear without a search, and the answer is the same. Of a face with a crowd around it nothing
+// is kept: else a scene whose faces are long and thin, or share a corner, would take time with the square of their number; nor of
+// the faces of instances, of which there may be a thousand times more than memory for them. Rays of close points are intersected
+// with the faces around them in double, and with all others by Embree.
 #pragma once
 
 #include "core/geometry/double_faces.h"
@@ -115,10 +115,7 @@ private:
         double error;
     };
     std::vector<Large> large_;
-    double error_of_rest_ =
-        0;  // the largest error of the others
-            // Scenes with instances may have a thousand times more faces than memory for them, all of them near a ground.
-    bool keeps_nothing_ = false;
+    double error_of_rest_ = 0;          // the largest error of the others
     double largest_error_ = 0;          // the largest error of all faces: how far an origin of a ray may be displaced
     mutable std::vector<State> round_;  // of round faces, by shape; for triangles see Triangle::is_clear()
     mutable oneapi::tbb::concurrent_map<Face, Surroundings> surroundings_;

@@ -148,6 +148,10 @@ VertexWeights vertex_weights(const Shape& shape, const SurfacePoint& p) {
     return {corners.vertices, weights_at(corners, p.position)};
 }
 
+Vec3 shading_normal(const Shape& shape, const SurfacePoint& p) {
+    return std::visit([&](const auto& s) { return shading_normal(s, p); }, shape);
+}
+
 ShadingPoint shading_point(const Shape& shape, const SurfacePoint& p) {
     return std::visit(
         [&](const auto& s) -> ShadingPoint {

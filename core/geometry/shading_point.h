@@ -13,6 +13,9 @@ struct ShadingPoint : SurfacePoint {
     Frame frame{Vec3(0.0, 0.0, 1.0)};  // z: the shading normal; x: along dp_du if there are coordinates
 };
 
+// On the front side; unit length. The geometric normal, but where a mesh has normals of its vertices. `p` lies on `shape`.
+Vec3 shading_normal(const Shape& shape, const SurfacePoint& p);
+
 // The shading point on the front side. `p` lies on `shape`, which must outlive the result.
 ShadingPoint shading_point(const Shape& shape, const SurfacePoint& p);
 

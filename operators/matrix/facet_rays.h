@@ -31,6 +31,7 @@ void for_rays_of_facet(const PatchSpace& space, const SobolPoints& sobol, std::u
         Vec3 w;
     };
     const Facet& facet = space.facets()[number];
+    const bool smooth = space.is_smooth(facet);
     const std::vector<FacetRay> rays = facet_rays(sobol, seed, number);
     constexpr std::size_t packet = RayCaster::packet_size;
     std::array<Departure, packet> from;
@@ -41,9 +42,9 @@ void for_rays_of_facet(const PatchSpace& space, const SobolPoints& sobol, std::u
         const std::size_t n = std::min(packet, rays.size() - begin);
         for (std::size_t i = 0; i < n; ++i) {
             from[i].x = space.patches().point(facet.patch, rays[begin + i].point);
-            if (from[i].x.normal != normal) {  // constant on a plane patch
+            if (smooth || from[i].x.normal != normal) {  // constant on a plane patch
                 normal = from[i].x.normal;
-                frame = PatchSpace::frame(facet, from[i].x);
+                frame = space.frame(facet, from[i].x);
             }
             from[i].w = frame.to_world(cosine_hemisphere(rays[begin + i].direction));
         }

@@ -51,8 +51,9 @@ NEUMANN_HOT void light_facet(const LightSampler& lights, const PatchSpace& space
         sampler.start(i);
         const Vec2 u = sampler.next2();
         const SurfacePoint x = space.patches().point(facet.patch, sampler.next2());
-        const LightSample y = lights.sample({x.position, facet.front ? x.normal : -x.normal}, u);
-        const Vec3 wi = PatchSpace::frame(facet, x).to_local(y.w);
+        const Frame frame = space.frame(facet, x);
+        const LightSample y = lights.sample({x.position, frame.n}, u);
+        const Vec3 wi = frame.to_local(y.w);
         if (!(y.pdf > 0.0) || !(wi.z > 0.0)) continue;
         segments[waiting] = {x, y.point};
         light[waiting] = y.weight * (of_sample * wi.z);
@@ -79,7 +80,7 @@ ExitantVector<C> emitted_light(const Scene& scene, const PatchSpace& space, cons
                 const Vec2 u = sampler.next2();
                 const SurfacePoint p = space.patches().point(facet.patch, sampler.next2());
                 if (!scene.emitters.is_emitter(p.shape)) return;
-                sum += scene.emitters.emitted(p, PatchSpace::frame(facet, p).to_world(facet.cells.direction(cell, u)));
+                sum += scene.emitters.emitted(p, space.frame(facet, p).to_world(facet.cells.direction(cell, u)));
             }
             Le.col(facet.first + cell) = to_channels<C>(sum / static_cast<double>(points.size()));
         }

@@ -44,7 +44,11 @@ LinkShares trace(const LinkLight& light, std::size_t part, const PatchSpace& spa
     found.rays = light.trace(part, found.power, [&](const LinkArrival& a) {
         const Facet& facet = space.facets()[space.facet_of(a.unknown)];
         const double etendue = space.patches().area(facet.patch) * pi / facet.cells.size() * a.index * a.index;
-        found.shares.push_back({a.unknown, std::min(a.bounce, static_cast<std::size_t>(bounces) + 1), a.power / etendue});
+        // Power that falls on a surface is reflected by the cosine with the shading normal.
+        const double cosine = glm::dot(space.frame(facet, a.x).n, a.wi), of_surface = std::abs(glm::dot(a.x.normal, a.wi));
+        if (!(cosine > 0.0)) return;
+        found.shares.push_back(
+            {a.unknown, std::min(a.bounce, static_cast<std::size_t>(bounces) + 1), a.power * (cosine / of_surface) / etendue});
     });
     return found;
 }

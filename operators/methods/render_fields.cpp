@@ -2,7 +2,7 @@
 #include "core/base/error.h"
 #include "core/base/memory.h"
 #include "core/base/stopwatch.h"
-#include "core/scene/shading_normals.h"
+#include "core/scene/normal_maps.h"
 #include "operators/matrix/sides.h"
 #include "operators/methods/crew.h"
 #include "operators/methods/preparation.h"
@@ -189,7 +189,7 @@ BounceSeries render_by(M m, const RenderJob& job) {
                         run.convergence.back());
 
     BounceSeries series = as_series(pictures, run, job.scene);
-    if (has_shading_normals(job.scene)) series.warnings.add(patches_are_flat);
+    if (has_normal_maps(job.scene)) series.warnings.add(patches_are_flat);
     if (misses_mirrored_light(job.scene, m))
         series.warnings.add(
             "what a mirror throws on from a light without extent is not found by patches whose directions are divided into cells, "

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "core/base/frame.h"
+#include "core/geometry/shading_point.h"
 #include "operators/patches/direction_cells.h"
 #include "operators/patches/patches.h"
 
@@ -61,14 +62,18 @@ public:
     // The facet of a side of a patch, or facets().size() if it has none.
     std::uint32_t facet(std::uint32_t patch, bool front) const { return facet_of_side_[side(patch, front)]; }
 
-    // The unknown of the radiance that leaves p along w.
+    // The unknown of the radiance that leaves p along w. On which side it leaves, the geometric normal tells.
     std::uint32_t unknown(const SurfacePoint& p, const Vec3& w) const {
         const bool front = glm::dot(p.normal, w) > 0.0;
         if (sides_[p.shape].of(front) == 0) return nothing();
         return unknown(patches_.locate(p), front, p, w);
     }
-    // z points away from the facet's side.
-    static Frame frame(const Facet& facet, const SurfacePoint& p) { return frame(facet.front, p); }
+    // z points away from the facet's side: the shading normal, as in R at a point.
+    Frame frame(const Facet& facet, const SurfacePoint& p) const { return frame(facet.front, p); }
+    // Whether that normal is another one at each point of a plane patch.
+    bool is_smooth(const Facet& facet) const {
+        return has_smooth_normals(geometry().shapes()[patches_.chart(facet.patch).shape()]);
+    }
 
     // The radiance that leaves p along w, interpolated linearly between patches: Σ weight · field[unknown]. The weight is 0 if
     // there is no unknown.
@@ -81,7 +86,10 @@ public:
 
 private:
     PatchSpace(Patches patches, std::vector<SideDirections> sides);
-    static Frame frame(bool front, const SurfacePoint& p) { return Frame(front ? p.normal : -p.normal); }
+    Frame frame(bool front, const SurfacePoint& p) const {
+        const Vec3 n = shading_normal(geometry().shapes()[p.shape], p);
+        return Frame(front ? n : -n);
+    }
     std::uint32_t unknown(std::uint32_t patch, bool front, const SurfacePoint& p, const Vec3& w) const {
         const std::uint32_t first = first_of_side_[side(patch, front)];
         const DirectionCells cells{sides_[p.shape].of(front)};

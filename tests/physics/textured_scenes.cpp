@@ -1,5 +1,5 @@
 // Rendered textures and normal maps against exact integrals. 6 comparisons by z.
-#include "core/scene/shading_normals.h"
+#include "core/scene/normal_maps.h"
 #include "core/texture/bitmap.h"
 #include "operators/known/quadrature.h"
 #include "tests/physics/probe.h"
@@ -71,21 +71,19 @@ TEST(TexturedScenes, TiltedNormalsUnderAWhiteSky) {
     maker.add(make_rectangle(Mat4(1.0)), made_of(tilted));
     maker.add(Sphere{{0, 0, 0}, 5.0, true}, lamp(1.0));
     const Scene scene = maker.make();
-    EXPECT_TRUE(has_shading_normals(scene));
+    EXPECT_TRUE(has_normal_maps(scene));
     for (const Technique way : {Technique::bsdf, Technique::mis}) {
         const Estimates found = probe(scene, at(scene, {0.1, 0.2, 0}, {0, 0, 1}), way, {.samples = 256, .bounces = 1});
         expect_matches(found.terms[1], rho * 0.5 * (1.0 + std::cos(tilt)), name(way));
     }
 }
 
-TEST(TexturedScenes, SmoothMeshesHaveShadingNormals) {
+TEST(TexturedScenes, SmoothMeshesHaveNoNormalMaps) {
     SceneMaker maker;
     TriangleMesh mesh = icosphere(0);
-    maker.add(mesh, matte(0.5));
-    EXPECT_FALSE(has_shading_normals(maker.make()));
     mesh.normals = mesh.vertices;
     maker.add(mesh, matte(0.5));
-    EXPECT_TRUE(has_shading_normals(maker.make()));
+    EXPECT_FALSE(has_normal_maps(maker.make()));
 }
 
 }  // namespace neumann::physics::textured_scenes_test
