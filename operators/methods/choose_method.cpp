@@ -151,15 +151,23 @@ public:
         return seconds;
     }
 
-    // Removes the methods whose preparation takes too long; says which, and why.
+    // Makes what the methods prepare smaller if it takes too long, and removes those that still do; says which, and why.
     std::string leave_out(std::vector<Candidate>& able) const {
         std::string said;
-        std::erase_if(able, [&](const Candidate& candidate) {
-            const Preparation preparation = preparations_.of(candidate.method);
-            if (preparation.seconds <= part_of_preparation * seconds_) return false;
-            said += fmt::format("; {} was left out: {}", name_of(candidate.method), describe(preparation));
-            return true;
-        });
+        std::vector<Candidate> fit;
+        for (Candidate& candidate : able) {
+            const Preparation whole = preparations_.of(candidate.method);
+            const auto method = preparations_.fitting(part_of_preparation * seconds_, candidate.method);
+            if (!method) {
+                said += fmt::format("; {} was left out: {}", name_of(candidate.method), describe(whole));
+                continue;
+            }
+            if (preparations_.of(*method).rays < whole.rays)
+                said += fmt::format("; {} was made smaller: {}", name_of(candidate.method), describe(whole));
+            candidate.method = *method;
+            fit.push_back(std::move(candidate));
+        }
+        able = std::move(fit);
         return said;
     }
     TrialSize size_of_trials(const std::vector<Candidate>& able) const {

@@ -18,8 +18,9 @@ namespace {
 // A scene of boxes and a limit of a second are no reason to do without.
 constexpr double part_of_time = 1.0 / 3.0, short_preparation = 0.5;
 double longest_preparation(double seconds) { return std::max(part_of_time * seconds, short_preparation); }
-// The rays of a guide's tables can be fewer, down to one in a cell.
+// The rays of a guide's tables can be fewer, down to one in a cell, and so can the patches of `corrected`.
 constexpr std::uint32_t fewest_of_table = CellDistribution::cells;
+constexpr std::size_t fewest_patches = 250;
 
 // A ray of the pilot's walks takes longer than one for fields or tables, which has no shading and begins where others do; and to
 // join a face to its neighbours, and to know its area, takes about as long as so many of the former. Measured: corrected in a cave
@@ -59,6 +60,26 @@ Needs needs_of(const M&, const Shapes& shapes) {
 template <class M>
 requires(!HasFields<M>) Needs needs_of(const M&, const Shapes&) { return {0.0, 0.0}; }
 
+// The method, and with what the user has left open less and less fine.
+std::vector<Method> less_and_less_fine(const Method& method) {
+    std::vector<Method> all{method};
+    if (const auto* guided = std::get_if<method::Guided>(&method); guided && !guided->directions) {
+        method::Guided coarser = *guided;
+        for (std::uint32_t rays = GuideSettings().rays / 2; rays >= fewest_of_table; rays /= 2) {
+            coarser.directions = rays;
+            all.emplace_back(coarser);
+        }
+    }
+    if (const auto* corrected = std::get_if<method::Corrected>(&method); corrected && !corrected->patches) {
+        method::Corrected coarser = *corrected;
+        for (std::size_t patches = ApproximationSettings().patches / 2; patches >= fewest_patches; patches /= 2) {
+            coarser.patches = patches;
+            all.emplace_back(coarser);
+        }
+    }
+    return all;
+}
+
 }  // namespace
 
 Preparations::Preparations(const Scene& scene, const Pilot& pilot) : seconds_per_ray_(pilot.seconds_per_ray()) {
@@ -80,16 +101,14 @@ Preparation Preparations::of(const Method& method) const {
 
 double cut_off_preparation(double seconds) { return 1.5 * longest_preparation(seconds); }
 
+std::optional<Method> Preparations::fitting(double seconds, const Method& method) const {
+    for (const Method& m : less_and_less_fine(method))
+        if (of(m).seconds <= seconds) return m;
+    return std::nullopt;
+}
+
 Method Preparations::in_time(double seconds, const Method& method) const {
-    const double longest = longest_preparation(seconds);
-    const auto fits = [&](const Method& m) { return of(m).seconds <= longest; };
-    if (fits(method)) return method;
-    const auto* const guided = std::get_if<method::Guided>(&method);
-    for (std::uint32_t rays = GuideSettings().rays / 2; guided && !guided->directions && rays >= fewest_of_table; rays /= 2) {
-        method::Guided coarser = *guided;
-        coarser.directions = rays;
-        if (fits(coarser)) return coarser;
-    }
+    if (const auto fits = fitting(longest_preparation(seconds), method)) return *fits;
     const Preparation preparation = of(method);
     throw InputError(fmt::format(
         "--method {}: {}, and a third of {:.3g} s at most may go into that; take --time {:.0f}, --spp, or --method walk",

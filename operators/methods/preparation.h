@@ -4,6 +4,7 @@
 #include "operators/methods/method.h"
 #include "operators/pictures/pilot.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,8 +23,9 @@ public:
     // Of `guided`, `corrected`, and of the first and smallest fields of `matrix`, `gather` and `patches`; nothing for methods whose
     // preparation does not grow with the scene.
     Preparation of(const Method& method) const;
-    // The method, or one with an option less fine whose preparation takes no longer than it may. Throws InputError if there is
-    // none. `seconds`: the time limit of the render.
+    // The method, or the finest of those with an option less fine, of which the preparation takes at most so long.
+    std::optional<Method> fitting(double seconds, const Method& method) const;
+    // The one that takes no longer than it may in a render of so many seconds. Throws InputError if there is none.
     Method in_time(double seconds, const Method& method) const;
 
     struct ShapeSides {

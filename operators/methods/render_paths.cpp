@@ -375,7 +375,11 @@ Method foretold(const Method& method, int bounces, const RenderJob& job) {
             each, film.crop_width, film.crop_height, left, enough_samples, std::ceil(enough_samples * each),
             std::max(std::floor(smaller * film.crop_width), 1.0), std::max(std::floor(smaller * film.crop_height), 1.0)));
     }
-    return Preparations(job.scene, job.pilot()).in_time(*seconds, method);
+    const Preparations preparations(job.scene, job.pilot());
+    const Method fits = preparations.in_time(*seconds, method);
+    if (const Preparation whole = preparations.of(method); preparations.of(fits).rays < whole.rays)
+        job.watch.tell(fmt::format("{} is made smaller: {}", name_of(method), describe(whole)));
+    return fits;
 }
 
 }  // namespace

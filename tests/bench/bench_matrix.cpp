@@ -209,7 +209,7 @@ double bare_rays_per_second(const Scene& scene) {
                 sampler.start(begin + i);
                 const Vec3 w = cosine_hemisphere(sampler.next2());
                 from[i].first = space.patches().point(space.facets()[f].patch, sampler.next2());
-                from[i].second = PatchSpace::frame(space.facets()[f], from[i].first).to_world(w);
+                from[i].second = space.frame(space.facets()[f], from[i].first).to_world(w);
             }
             recorder.first_hits(
                 packet, [&](std::size_t i) { return std::pair<const SurfacePoint&, const Vec3&>(from[i].first, from[i].second); },
