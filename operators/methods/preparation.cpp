@@ -22,10 +22,11 @@ double longest_preparation(double seconds) { return std::max(part_of_time * seco
 constexpr std::uint32_t fewest_of_table = CellDistribution::cells;
 constexpr std::size_t fewest_patches = 250;
 
-// A ray of the pilot's walks takes longer than one for fields or tables, which has no shading and begins where others do; and to
-// join a face to its neighbours, and to know its area, takes about as long as so many of the former. Measured: corrected in a cave
-// of 30,000 triangles, and a body of 10⁶ in a room (tests/bench/bench_mesh.py), 0.35 and 0.73 s.
-constexpr double price_of_ray = 0.35, rays_of_face = 1.2;
+// A ray for fields or tables takes less than one of the pilot's walks: it has no shading, and begins where others do. A face is
+// joined to its neighbours. Measured with 1000 patches (tests/bench/bench_mesh.py), foretold in brackets: in a room with a body of
+// 1000, 30,000 and 10⁶ triangles 0.13 (0.12), 0.20 (0.14) and 0.64 s (0.50), in a cave of the latter two 0.27 (0.39) and 1.79 s
+// (1.79).
+constexpr double price_of_ray = 0.7, seconds_of_face = 3e-7;
 
 using Shapes = std::vector<Preparations::ShapeSides>;
 double facets_of(const Shapes& shapes, double patches) {
@@ -96,7 +97,7 @@ Preparations::Preparations(const Scene& scene, const Pilot& pilot) : seconds_per
 Preparation Preparations::of(const Method& method) const {
     const Needs needs = std::visit([&](const auto& m) { return needs_of(m, shapes_); }, method);
     if (needs.facets == 0.0) return {};
-    return {needs.facets, needs.rays, (price_of_ray * needs.rays + rays_of_face * faces_) * seconds_per_ray_};
+    return {needs.facets, needs.rays, price_of_ray * needs.rays * seconds_per_ray_ + seconds_of_face * faces_};
 }
 
 double cut_off_preparation(double seconds) { return 1.5 * longest_preparation(seconds); }

@@ -1,6 +1,7 @@
 #include "operators/pictures/checkup.h"
 
 #include "core/geometry/rounding.h"
+#include "operators/correction/shared_points.h"
 #include "operators/pictures/path_group.h"
 
 #include <oneapi/tbb/parallel_for.h>
@@ -14,8 +15,6 @@ namespace {
 
 constexpr std::uint64_t checkup_stream = 0x636865636b7570ull;  // another seed than the pictures'
 constexpr std::uint64_t most_groups = 256, fewest_groups = 16, vertices = 1u << 20;
-// With `corrected` all points of a replicate are made for each group.
-constexpr std::uint64_t most_groups_with_points = 16;
 constexpr int most_bounces = 64;
 constexpr std::size_t self_hits_kept = 4;
 
@@ -119,11 +118,13 @@ Inspection inspect(const Scene& scene, const PictureSampler& sampler, std::uint6
     const SamplingSettings& settings = sampler.settings();
     const SampleLayout& layout = sampler.layout();
     const MetropolisSampler* const chains = sampler.metropolis();
+    // With `corrected` the groups are of one replicate: its points take as long to make as a picture.
+    const CorrectedSampler* const corrected = sampler.corrected();
+    const auto points = corrected ? corrected->points_of(0) : std::nullopt;
     const std::uint64_t groups = chains ? chains->independent_groups() : layout.groups(),
-                        all = groups * (samples / settings.replicate_size);
+                        all = groups * (corrected ? 1 : samples / settings.replicate_size);
     const auto length = static_cast<std::uint64_t>(settings.walk.bounces) + 1;
-    std::uint64_t count = std::min(all, std::clamp(vertices / (paths_at_once * length), fewest_groups, most_groups));
-    if (settings.generator == PathGenerator::corrected) count = std::min(count, most_groups_with_points);
+    const std::uint64_t count = std::min(all, std::clamp(vertices / (paths_at_once * length), fewest_groups, most_groups));
     const auto group_of = [&](std::uint64_t k) -> Group {
         const std::uint64_t number = k * all / count;
         const auto in_replicate = static_cast<std::uint32_t>(number % groups);
@@ -144,6 +145,8 @@ Inspection inspect(const Scene& scene, const PictureSampler& sampler, std::uint6
         if (light_bounces > 0) look.light.emplace(scene, true, light_bounces, 1, seed, stream + 1);
         if (chains)
             chains->retrace_independent(look.replicate, look.first / chains_at_once, look);
+        else if (corrected)
+            (void)corrected->retrace(look.replicate, look.first, points ? &*points : nullptr, look);
         else
             (void)sampler.retrace(look.replicate, look.first, look);
         for (auto* sheet : {&look.camera, &look.light})

@@ -34,8 +34,11 @@ public:
                         const Watch& watch) const;
     // As PictureSampler::own_samples().
     std::optional<std::uint64_t> own_samples(std::uint64_t replicate, const OwnSamples& each, const Watch& watch) const;
-    // As PictureSampler::retrace().
-    std::vector<Rgb> retrace(std::uint64_t replicate, std::uint32_t first, PathObserver& observer) const;
+    // What the pixels of a replicate share; nothing if no surface is diffuse.
+    std::optional<SharedPoints> points_of(std::uint64_t replicate) const;
+    // As PictureSampler::retrace(); with these points, or null.
+    std::vector<Rgb> retrace(std::uint64_t replicate, std::uint32_t first, const SharedPoints* points,
+                             PathObserver& observer) const;
 
 private:
     struct Workspace;

@@ -74,6 +74,7 @@ public:
     const MixedSampler* mixed() const { return std::get_if<MixedSampler>(&sampler_); }
     // Null unless paths are chains.
     const MetropolisSampler* metropolis() const { return std::get_if<MetropolisSampler>(&sampler_); }
+    const CorrectedSampler* corrected() const { return std::get_if<CorrectedSampler>(&sampler_); }
 
     // With photon maps: traces the paths again that left photons of a replicate, those of the group with this path, which have
     // their numbers in the group. With a cache: the ray of a record with this number, which has number 0.

@@ -66,7 +66,10 @@ void ReusingEstimator::trace(PathObserver& observer, std::span<const CameraRay> 
 std::vector<Rgb> PictureSampler::retrace(std::uint64_t replicate, std::uint32_t first, PathObserver& observer) const {
     if (const auto* whole_pictures = std::get_if<SplatSampler>(&sampler_))
         return whole_pictures->retrace(replicate, first, observer);
-    if (const auto* corrected = std::get_if<CorrectedSampler>(&sampler_)) return corrected->retrace(replicate, first, observer);
+    if (const auto* corrected = std::get_if<CorrectedSampler>(&sampler_)) {
+        const auto points = corrected->points_of(replicate);
+        return corrected->retrace(replicate, first, points ? &*points : nullptr, observer);
+    }
     if (const auto* photons = std::get_if<PhotonSampler>(&sampler_)) return photons->retrace(replicate, first, observer);
     if (const auto* cache = std::get_if<CacheSampler>(&sampler_)) return cache->retrace(replicate, first, observer);
     if (const auto* chains = std::get_if<MetropolisSampler>(&sampler_)) return chains->retrace(replicate, first, observer);
@@ -112,12 +115,16 @@ std::vector<Rgb> SplatSampler::retrace(std::uint64_t replicate, std::uint32_t fi
     return std::move(group.samples);
 }
 
-std::vector<Rgb> CorrectedSampler::retrace(std::uint64_t replicate, std::uint32_t first, PathObserver& observer) const {
+std::optional<SharedPoints> CorrectedSampler::points_of(std::uint64_t replicate) const {
     std::uint64_t rays = 0, given_up = 0;
-    const auto points = points_->make(replicate, rays, given_up, {});
+    return points_->make(replicate, rays, given_up, {});
+}
+
+std::vector<Rgb> CorrectedSampler::retrace(std::uint64_t replicate, std::uint32_t first, const SharedPoints* points,
+                                           PathObserver& observer) const {
     Workspace work(settings_.quantities());
     SplitPaths split(observer, [&](std::uint32_t walker) { return work.walkers.walker[walker].path; });
-    trace_group(replicate, layout_.group_with(first), points ? &*points : nullptr, work, WatchedPaths(split));
+    trace_group(replicate, layout_.group_with(first), points, work, WatchedPaths(split));
     return std::move(work.group.samples);
 }
 
