@@ -162,8 +162,9 @@ public:
                 said += fmt::format("; {} was left out: {}", name_of(candidate.method), describe(whole));
                 continue;
             }
-            if (preparations_.of(*method).rays < whole.rays)
-                said += fmt::format("; {} was made smaller: {}", name_of(candidate.method), describe(whole));
+            if (const Preparation fits = preparations_.of(*method); fits.rays < whole.rays)
+                said += fmt::format("; {} was made smaller, of {:.0f} patches and {:.2g} rays: {}", name_of(candidate.method),
+                                    fits.facets, fits.rays, describe(whole));
             candidate.method = *method;
             fit.push_back(std::move(candidate));
         }

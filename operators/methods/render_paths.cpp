@@ -377,8 +377,9 @@ Method foretold(const Method& method, int bounces, const RenderJob& job) {
     }
     const Preparations preparations(job.scene, job.pilot());
     const Method fits = preparations.in_time(*seconds, method);
-    if (const Preparation whole = preparations.of(method); preparations.of(fits).rays < whole.rays)
-        job.watch.tell(fmt::format("{} is made smaller: {}", name_of(method), describe(whole)));
+    if (const Preparation whole = preparations.of(method), made = preparations.of(fits); made.rays < whole.rays)
+        job.watch.tell(fmt::format("{} is made smaller, of {:.0f} patches and {:.2g} rays: {}", name_of(method), made.facets,
+                                   made.rays, describe(whole)));
     return fits;
 }
 
