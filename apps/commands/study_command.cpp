@@ -189,7 +189,8 @@ StudyEnd run_study(StudyRequest request, const Scene& scene, double scene_second
     }
 
     const Stopwatch pilot_watch;
-    const Pilot pilot(scene, {}, request.seed);
+    const int wanted = request.resume ? journal.plan.at("bounces").get<int>() : request.bounces.value_or(scene.bounces.value_or(0));
+    const Pilot pilot(scene, {}, request.seed, wanted);
     StudyData data{request, methods, scene, pilot, 0, {}, {}, scene_seconds, 0.0, true, {}, {}, {}, false};
     data.pilot_seconds = pilot_watch.seconds();
     data.bounces = request.resume    ? journal.plan.at("bounces").get<int>()

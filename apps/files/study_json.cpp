@@ -90,7 +90,7 @@ Json as_json(const StudyData& data, std::size_t q, const StudiedMethod& method) 
 
 Json truncation(const StudyData& data) {
     Json json;
-    if (data.bounces > Pilot::bounces || !data.pilot.converges()) {
+    if (data.bounces > data.pilot.bounces() || !data.pilot.converges()) {
         json["note"] = "not known: the walks that look for it did not end";
         return json;
     }

@@ -11,8 +11,6 @@ namespace neumann {
 
 namespace {
 
-// By default, N is large enough that the rest is below this part of the sum.
-constexpr double default_tail = 0.01;
 // The strip of doubling sums shows sums up to bounce 16.
 constexpr int default_least_bounces = 16, default_most_bounces = 64;
 
@@ -20,18 +18,18 @@ int bounces_for(double tail, const Pilot& pilot) {
     if (!pilot.converges())
         throw RunError(fmt::format(
             "--tail {}: the series does not converge: {} of {} walks had not ended after {} bounces; give the bounces with -n",
-            tail, pilot.given_up(), pilot.walks(), Pilot::bounces + Pilot::give_up));
+            tail, pilot.given_up(), pilot.walks(), pilot.bounces() + Pilot::give_up));
     const int n = pilot.bounces_for_tail(tail);
     if (n < 0)
         throw RunError(
-            fmt::format("--tail {}: more than {} bounces would be needed; give the bounces with -n", tail, Pilot::bounces));
+            fmt::format("--tail {}: more than {} bounces would be needed; give the bounces with -n", tail, pilot.bounces()));
     return n;
 }
 
 }  // namespace
 
 int default_bounces(const Pilot& pilot) {
-    const int n = pilot.converges() ? pilot.bounces_for_tail(default_tail) : -1;
+    const int n = pilot.converges() ? pilot.bounces_for_tail(Pilot::default_tail) : -1;
     const int enough = n < 0 ? default_least_bounces : std::clamp(n, default_least_bounces, default_most_bounces);
     const int end = pilot.bounces_for_tail(0.0);
     return end < 0 ? enough : std::min(enough, end);

@@ -71,7 +71,7 @@ void describe(BounceSeries& series, const RenderJob& job) {
 }
 
 BounceSeries render(const Scene& scene, const Method& method, const Goal& goal, const Watch& watch, Prepared& prepared) {
-    const PilotOnDemand pilot(scene, direct_of_pilot(method), goal.seed);
+    const PilotOnDemand pilot(scene, direct_of_pilot(method), goal);
     Saving saving;
     return render(scene, method, goal, watch, pilot, saving, std::nullopt, prepared, Stopwatch());
 }
@@ -83,7 +83,7 @@ BounceSeries render(const Scene& scene, const Method& method, const Goal& goal, 
 BounceSeries render(const Scene& scene, const Method& method, const Goal& goal, const Watch& watch, Saving saving) {
     const Stopwatch clock;
     if (!saving.from) show_first_pictures(scene, method, goal, watch);
-    const PilotOnDemand pilot(scene, direct_of_pilot(method), goal.seed);
+    const PilotOnDemand pilot(scene, direct_of_pilot(method), goal);
     return render(scene, method, goal, watch, pilot, std::move(saving), clock);
 }
 

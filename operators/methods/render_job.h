@@ -13,13 +13,17 @@ namespace neumann {
 // A pilot that runs when it is first asked for: a render whose bounces and samples are given may need none.
 class PilotOnDemand {
 public:
-    PilotOnDemand(const Scene& scene, const DirectLightSettings& direct, std::uint64_t seed)
-        : scene_(&scene), direct_(direct), seed_(seed) {}
+    PilotOnDemand(const Scene& scene, const DirectLightSettings& direct, const Goal& goal)
+        : scene_(&scene),
+          direct_(direct),
+          seed_(goal.seed),
+          bounces_(goal.bounces.value_or(goal.tail ? 0 : scene.bounces.value_or(0))),
+          tail_(goal.tail.value_or(Pilot::default_tail)) {}
     explicit PilotOnDemand(const Pilot& given) : given_(&given) {}
 
     const Pilot& operator()() const {
         if (given_) return *given_;
-        if (!made_) made_.emplace(*scene_, direct_, seed_);
+        if (!made_) made_.emplace(*scene_, direct_, seed_, bounces_, tail_);
         return *made_;
     }
 
@@ -27,6 +31,8 @@ private:
     const Scene* scene_ = nullptr;
     DirectLightSettings direct_;
     std::uint64_t seed_ = 0;
+    int bounces_ = 0;
+    double tail_ = Pilot::default_tail;
     const Pilot* given_ = nullptr;
     mutable std::optional<Pilot> made_;
 };

@@ -237,7 +237,7 @@ PathRecord record_of(const RenderedSeries& sampled, const SamplingSettings& sett
     if (verdict == RestVerdict::measured) record.rest_probability = settings.walk.rest_probability;
     if (verdict == RestVerdict::not_converging)
         record.why_no_rest = fmt::format("{} of {} walks had not ended after {} bounces and were given up", job.pilot().given_up(),
-                                         job.pilot().walks(), Pilot::bounces + Pilot::give_up);
+                                         job.pilot().walks(), job.pilot().bounces() + Pilot::give_up);
     record.photons = settings.photons;
     record.records = settings.records;
     record.chains = sampled.tally.chains;
@@ -292,8 +292,10 @@ Sampled sample(const Method& method, SamplingSettings& settings, SamplingGoal go
     for (;;) {
         const int N = settings.walk.bounces;
         check_memory(job.goal, job.scene.film, N, settings.quantities());
-        settings.walk.rest_probability =
-            verdict == RestVerdict::measured ? job.pilot().rest_probability(std::min(N, Pilot::bounces)) : 0.0;
+        settings.walk.rest_probability = verdict != RestVerdict::measured ? 0.0
+                                         : goes_on && N == job.saving.from->render.bounces
+                                             ? job.saving.from->render.rest_probability
+                                             : job.pilot().rest_probability(N);
         Watch watch = job.watch;
         watch.checkpoints = watch.checkpoints && !job.goal.only_pictures;
         const RecordedRender record{as_it_ran(method, settings, job.scene.film), job.goal.seed, N, settings.walk.rest_probability,

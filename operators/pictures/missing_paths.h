@@ -17,7 +17,7 @@ enum class Paths {
 bool has_specular(const Materials& materials);
 Paths paths_of(PathGenerator generator, const Scene& scene);
 
-// Sets what is missing of each bounce: mean(pilot) − mean(picture), which are independent, for bounces up to Pilot::bounces.
+// Sets what is missing of each bounce: mean(pilot) − mean(picture), which are independent, for bounces up to Pilot::bounces().
 void report_missing(SeriesReport& report, const Pilot& pilot);
 
 }  // namespace neumann

@@ -14,29 +14,28 @@ namespace neumann {
 namespace {
 
 constexpr std::uint64_t pilot_stream = 0x70696c6f74ull;  // another seed than the pictures'
-constexpr std::uint64_t batch = 64, largest_batches = 256;
-constexpr std::uint64_t enough_rays = 1'000'000;
+constexpr std::uint64_t batch = 64, together = 8, largest_batches = 256;
+// Walks are not ended by roulette up to the last term, and in a closed room most rays are of its late bounces.
+constexpr std::uint64_t enough_rays = 250'000, enough_rays_of_most = 1'000'000;
+// The rest beyond few bounces is small if it is such a part of the tail that is wanted.
+constexpr double small_part = 0.1;
 
 std::atomic<std::uint64_t> pilots = 0;
 
 }  // namespace
 
-Pilot::Pilot(const Scene& scene, const DirectLightSettings& direct, std::uint64_t seed) {
-    ++pilots;
-    constexpr std::size_t quantities = bounces + 2;
-    const WalkSettings settings{.bounces = bounces, .direct = direct, .rest_probability = 1.0, .give_up = give_up};
-    const DirectLightSampler direct_light(scene, direct);
-    const Stopwatch watch;
-
-    // Moments of the terms and of the tails Σ_{k>i}, over walks; batches are added in a fixed order.
+// Walks up to a bounce N: of the terms 0 … N, and of the rest as the last quantity.
+struct Pilot::Walks {
+    // Of quantities over walks.
     struct Moments {
-        std::vector<double> sum = std::vector<double>(quantities), square = std::vector<double>(quantities);
+        std::vector<double> sum, square;
+        explicit Moments(std::size_t quantities) : sum(quantities), square(quantities) {}
         void add(std::size_t q, double x) {
             sum[q] += x;
             square[q] += x * x;
         }
         void add(const Moments& other) {
-            for (std::size_t q = 0; q < quantities; ++q) {
+            for (std::size_t q = 0; q < sum.size(); ++q) {
                 sum[q] += other.sum[q];
                 square[q] += other.square[q];
             }
@@ -46,67 +45,96 @@ Pilot::Pilot(const Scene& scene, const DirectLightSettings& direct, std::uint64_
             return {mean, std::sqrt(variance), n - 1.0};
         }
     };
-    struct Batch {
-        Moments term, tail;
-        std::vector<std::uint64_t> rays = std::vector<std::uint64_t>(quantities);
-        std::uint64_t given_up = 0;
-    };
-    Moments term, tail;
-    std::vector<std::uint64_t> rays(quantities);
-    std::uint64_t all_rays = 0, batches = 0;
-    constexpr std::uint64_t together = 8;
-    while (batches < largest_batches && all_rays < enough_rays) {
-        std::vector<Batch> round(together);
-        oneapi::tbb::parallel_for(std::uint64_t{0}, together, [&](std::uint64_t b) {
-            std::vector<CameraRay> camera_rays;
-            std::vector<double> responses;
-            std::vector<Sampler> samplers;
-            const Film& film = scene.film;
-            for (std::uint64_t i = 0; i < batch; ++i) {
-                Sampler& sampler =
-                    samplers.emplace_back(seed ^ pilot_stream, static_cast<std::uint32_t>((batches + b) * batch + i));
-                sampler.start(0);
-                const Vec2 u = sampler.next2();
-                const Vec2 position(film.crop_x + u.x * film.crop_width, film.crop_y + u.y * film.crop_height);
-                camera_rays.push_back(scene.camera.sample_ray(position, sampler));
-                responses.push_back(scene.camera.response(position));
-            }
-            std::vector<Rgb> sampled(batch * quantities, Rgb(0.0));
-            TermSamples result{sampled, round[b].rays};
-            Walkers walkers;
-            walk(scene, direct_light, settings, camera_rays, samplers, walkers, result, MaterialContinuation());
-            for (std::uint64_t i = 0; i < batch; ++i) {
-                Rgb* terms = sampled.data() + i * quantities;
-                for (std::size_t q = 0; q < quantities; ++q) terms[q] *= responses[i];
-                double sum = 0.0;
-                for (std::size_t q = quantities; q-- > 1;) {
-                    sum += mean_component(terms[q]);
-                    round[b].tail.add(q - 1, sum);
-                    round[b].term.add(q, mean_component(terms[q]));
-                }
-                round[b].term.add(0, mean_component(terms[0]));
-            }
-            round[b].given_up = result.given_up;
-        });
-        for (const Batch& b : round) {
-            term.add(b.term);
-            tail.add(b.tail);
-            given_up_ += b.given_up;
-            for (std::size_t q = 0; q < quantities; ++q) {
-                rays[q] += b.rays[q];
-                all_rays += b.rays[q];
-            }
+
+    explicit Walks(int N)
+        : bounces(N), quantities(static_cast<std::size_t>(N) + 2), term(quantities), tail(quantities), rays(quantities) {}
+
+    int bounces;
+    std::size_t quantities;
+    Moments term, tail;  // tail: Σ_{k>i}
+    std::vector<std::uint64_t> rays;
+    std::uint64_t given_up = 0, batches = 0;
+
+    std::uint64_t all_rays() const { return std::accumulate(rays.begin(), rays.end(), std::uint64_t{0}); }
+    double count() const { return static_cast<double>(batches * batch); }
+
+    void add(const Walks& other) {
+        term.add(other.term);
+        tail.add(other.tail);
+        for (std::size_t q = 0; q < quantities; ++q) rays[q] += other.rays[q];
+        given_up += other.given_up;
+        batches += other.batches;
+    }
+
+    void sample_batch(const Scene& scene, const DirectLightSampler& direct_light, const DirectLightSettings& direct,
+                      std::uint64_t seed, std::uint64_t number) {
+        const WalkSettings settings{.bounces = bounces, .direct = direct, .rest_probability = 1.0, .give_up = give_up};
+        std::vector<CameraRay> camera_rays;
+        std::vector<double> responses;
+        std::vector<Sampler> samplers;
+        const Film& film = scene.film;
+        for (std::uint64_t i = 0; i < batch; ++i) {
+            Sampler& sampler = samplers.emplace_back(seed ^ pilot_stream, static_cast<std::uint32_t>(number * batch + i));
+            sampler.start(0);
+            const Vec2 u = sampler.next2();
+            const Vec2 position(film.crop_x + u.x * film.crop_width, film.crop_y + u.y * film.crop_height);
+            camera_rays.push_back(scene.camera.sample_ray(position, sampler));
+            responses.push_back(scene.camera.response(position));
         }
-        batches += together;
+        std::vector<Rgb> sampled(batch * quantities, Rgb(0.0));
+        TermSamples result{sampled, rays};
+        Walkers walkers;
+        walk(scene, direct_light, settings, camera_rays, samplers, walkers, result, MaterialContinuation());
+        for (std::uint64_t i = 0; i < batch; ++i) {
+            Rgb* terms = sampled.data() + i * quantities;
+            for (std::size_t q = 0; q < quantities; ++q) terms[q] *= responses[i];
+            double sum = 0.0;
+            for (std::size_t q = quantities; q-- > 1;) {
+                sum += mean_component(terms[q]);
+                tail.add(q - 1, sum);
+                term.add(q, mean_component(terms[q]));
+            }
+            term.add(0, mean_component(terms[0]));
+        }
+        given_up = result.given_up;
+        batches = 1;
     }
-    walks_ = batches * batch;
-    const auto n = static_cast<double>(walks_);
-    for (std::size_t q = 0; q < quantities; ++q) {
-        term_.push_back(term.mean(q, n));
-        rest_.push_back(tail.mean(q, n));
-        rays_.push_back(static_cast<double>(rays[q]) / n);
+};
+
+Pilot::Pilot(const Scene& scene, const DirectLightSettings& direct, std::uint64_t seed, int wanted, double tail) {
+    ++pilots;
+    const DirectLightSampler direct_light(scene, direct);
+    // Whether the walks tell what is wanted.
+    const auto sample = [&](int bounces, std::uint64_t enough) {
+        const Stopwatch watch;
+        Walks all(bounces);
+        do {
+            std::vector<Walks> round(together, Walks(bounces));
+            oneapi::tbb::parallel_for(std::uint64_t{0}, together, [&](std::uint64_t b) {
+                round[b].sample_batch(scene, direct_light, direct, seed, all.batches + b);
+            });
+            for (const Walks& walks : round) all.add(walks);  // in a fixed order
+            take(all);
+            if (bounces < most_bounces && upper_rest(bounces) > small_part * tail * sum()) return false;
+        } while (all.batches < largest_batches && all.all_rays() < enough);
+        seconds_per_ray_ = watch.seconds() / static_cast<double>(std::max<std::uint64_t>(all.all_rays(), 1));
+        return true;
+    };
+    if (wanted > few_bounces || !sample(few_bounces, enough_rays)) sample(most_bounces, enough_rays_of_most);
+}
+
+void Pilot::take(const Walks& walks) {
+    const double n = walks.count();
+    walks_ = walks.batches * batch;
+    given_up_ = walks.given_up;
+    term_.clear();
+    rest_.clear();
+    rays_.clear();
+    for (std::size_t q = 0; q < walks.quantities; ++q) {
+        term_.push_back(walks.term.mean(q, n));
+        rest_.push_back(walks.tail.mean(q, n));
+        rays_.push_back(static_cast<double>(walks.rays[q]) / n);
     }
-    seconds_per_ray_ = watch.seconds() / static_cast<double>(std::max<std::uint64_t>(all_rays, 1));
 }
 
 std::uint64_t pilots_run() { return pilots; }
@@ -120,22 +148,29 @@ MeanWithError Pilot::term(int i) const { return term_[static_cast<std::size_t>(i
 
 MeanWithError Pilot::rest(int i) const { return rest_[static_cast<std::size_t>(i)]; }
 
+double Pilot::upper_rest(int i) const { return rest(i).mean + 2.0 * rest(i).standard_error; }
+
 int Pilot::bounces_for_tail(double fraction) const {
-    for (int i = 0; i <= bounces; ++i)
-        if (rest(i).mean + 2.0 * rest(i).standard_error <= fraction * sum()) return i;
+    for (int i = 0; i <= bounces(); ++i)
+        if (upper_rest(i) <= fraction * sum()) return i;
     return -1;
 }
 
 double Pilot::rest_probability(int N) const {
-    // The pilot's walks have no roulette up to bounce 256. The render's have it beyond N, and survive about as the terms fall.
+    // The pilot's walks have no roulette up to its last term. The render's have it beyond N, and survive about as the terms fall.
     const auto term = [&](std::size_t q) { return rest_[q - 1].mean - (q < rest_.size() ? rest_[q].mean : 0.0); };
-    const auto first = static_cast<std::size_t>(N) + 1;
+    const auto first = static_cast<std::size_t>(std::min(N, bounces())) + 1, last = rays_.size() - 1;
+    // What is beyond the last term begins with as many walks as that.
+    const auto survival = [&](std::size_t q) {
+        const std::size_t of = std::min(q, last - 1);
+        return of >= first && term(first) > 0.0 ? std::clamp(term(of) / term(first), 0.0, 1.0) : 1.0;
+    };
     double terms = 0.0, beyond = 0.0;
-    for (std::size_t q = 0; q < rays_.size(); ++q) {
+    for (std::size_t q = 0; q <= last; ++q) {
         if (q < first)
             terms += rays_[q];
         else
-            beyond += rays_[q] * (q < rays_.size() - 1 && term(first) > 0.0 ? std::clamp(term(q) / term(first), 0.0, 1.0) : 1.0);
+            beyond += rays_[q] * survival(q);
     }
     return beyond > terms ? terms / beyond : 1.0;
 }

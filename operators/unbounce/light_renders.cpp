@@ -33,13 +33,13 @@ SamplingSettings settings_of_walks(const Scene& scene, const LightSampling& samp
     settings.seed = goal.seed;
     settings.replicate_size = samples_of_part(sampling.samples, lights);
     settings.walk.bounces = sampling.bounces;
-    const Pilot pilot(scene, {}, goal.seed);
+    const Pilot pilot(scene, {}, goal.seed, sampling.bounces);
     if (!pilot.converges())
         throw RunError(
             fmt::format("the light of all bounces is not known: {} of {} walks had not ended after {} bounces and were "
                         "given up",
-                        pilot.given_up(), pilot.walks(), Pilot::bounces + Pilot::give_up));
-    settings.walk.rest_probability = pilot.rest_probability(std::min(sampling.bounces, Pilot::bounces));
+                        pilot.given_up(), pilot.walks(), pilot.bounces() + Pilot::give_up));
+    settings.walk.rest_probability = pilot.rest_probability(sampling.bounces);
     return settings;
 }
 

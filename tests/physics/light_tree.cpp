@@ -48,7 +48,9 @@ TEST(LightTree, ChoosesWithTheProbabilityThatItTells) {
         for (std::uint32_t i = 0; i < lights.size(); ++i) {
             const double probability = tree.probability(i, x, normal);
             sum += probability;
-            if (irradiance(lights[i], x, normal) > 0.0) EXPECT_GT(probability, 0.0) << k << ", light " << i;
+            if (irradiance(lights[i], x, normal) > 0.0) {
+                EXPECT_GT(probability, 0.0) << k << ", light " << i;
+            }
         }
         EXPECT_LE(sum, 1.0 + 1e-9);
         // The numbers that choose a light are an interval as wide as its probability, and are told anew in [0, 1).

@@ -19,7 +19,7 @@ Scene of_file(const std::string& name) { return read_scene(SCENES "/" + name + "
 
 MethodChoice choose(const method::Auto& open, const Scene& scene, const Goal& goal) {
     Prepared prepared(goal.seed);
-    return choose_method(open, scene, goal, PilotOnDemand(scene, {}, goal.seed), prepared, {});
+    return choose_method(open, scene, goal, PilotOnDemand(scene, {}, goal), prepared, {});
 }
 // With a number of samples rays are counted, and not seconds.
 MethodChoice choice(const Scene& scene, std::uint64_t seed = fixed_seed) {
