@@ -23,9 +23,11 @@ struct Sight {
 // All rays of a facet, one for each Sobol' point, ordered so that neighbours have similar directions: Embree is faster then.
 std::vector<FacetRay> facet_rays(const SobolPoints& sobol, std::uint64_t seed, std::uint32_t number);
 
-// Casts the rays and calls f(u, sight) for each in order; u is the direction on its square.
+// Casts the rays and calls f(u, sight) for each in order; u is the direction on its square. So many of a point, a power of two up
+// to the packet's size, start where the first of them does: points on a fine mesh are in cold memory.
 template <class F>
-void for_rays_of_facet(const PatchSpace& space, const SobolPoints& sobol, std::uint64_t seed, std::uint32_t number, const F& f) {
+void for_rays_of_facet(const PatchSpace& space, const SobolPoints& sobol, std::uint64_t seed, std::uint32_t number, const F& f,
+                       std::size_t of_a_point = 1) {
     struct Departure {
         SurfacePoint x;
         Vec3 w;
@@ -41,7 +43,10 @@ void for_rays_of_facet(const PatchSpace& space, const SobolPoints& sobol, std::u
     for (std::size_t begin = 0; begin < rays.size(); begin += packet) {
         const std::size_t n = std::min(packet, rays.size() - begin);
         for (std::size_t i = 0; i < n; ++i) {
-            from[i].x = space.patches().point(facet.patch, rays[begin + i].point);
+            if (i % of_a_point > 0)
+                from[i].x = from[i - 1].x;
+            else
+                from[i].x = space.patches().point(facet.patch, rays[begin + i].point);
             if (smooth || from[i].x.normal != normal) {  // constant on a plane patch
                 normal = from[i].x.normal;
                 frame = space.frame(facet, from[i].x);

@@ -1,5 +1,7 @@
 #include "operators/patches/facing.h"
 
+#include "core/geometry/shading_point.h"
+
 #include <algorithm>
 
 namespace neumann {
@@ -50,7 +52,9 @@ bool Facing::nothing(const Chart& chart, bool front) const {
             return glm::distance(ball.center, sphere->center) + ball.radius <= sphere->radius + slack;
         });
     }
-    if (chart.clusters() || std::holds_alternative<Cylinder>(geometry_.shapes()[chart.shape()])) return false;
+    if (chart.clusters() || has_smooth_normals(geometry_.shapes()[chart.shape()]) ||
+        std::holds_alternative<Cylinder>(geometry_.shapes()[chart.shape()]))
+        return false;
     const SurfacePoint p = chart.point(geometry_, Vec2(0.5));
     const Vec3 normal = front ? p.normal : -p.normal;
     return std::all_of(balls_.begin(), balls_.end(),

@@ -11,6 +11,7 @@ namespace neumann {
 
 PatchSpace::PatchSpace(Patches patches, std::vector<SideDirections> sides)
     : patches_(std::move(patches)), sides_(std::move(sides)), facet_of_side_(2 * patches_.size()) {
+    for (const Shape& shape : geometry().shapes()) is_smooth_.push_back(has_smooth_normals(shape));
     const Facing facing(geometry());
     std::uint64_t unknowns = 0;
     const Chart* chart = nullptr;
@@ -49,7 +50,7 @@ PatchSpace::PatchSpace(Patches patches, std::vector<SideDirections> sides)
 }
 
 PatchSpace::Reading PatchSpace::read(const SurfacePoint& p, const Patches::Place& place, const Vec3& w) const {
-    const bool front = glm::dot(p.normal, w) > 0.0;
+    const bool front = is_front(p, w);
     Reading reading{{nothing(), nothing(), nothing(), nothing()}, {}};
     if (sides_[p.shape].of(front) == 0) return reading;
     const Patches::Reading patches = patches_.interpolate(place);

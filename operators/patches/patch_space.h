@@ -62,18 +62,22 @@ public:
     // The facet of a side of a patch, or facets().size() if it has none.
     std::uint32_t facet(std::uint32_t patch, bool front) const { return facet_of_side_[side(patch, front)]; }
 
-    // The unknown of the radiance that leaves p along w. On which side it leaves, the geometric normal tells.
+    // On which side of p the direction w lies: the shading normal tells, as in R at a point. Of a side that emits, the geometric
+    // normal does, as in Le.
+    bool is_front(const SurfacePoint& p, const Vec3& w) const {
+        const bool by_shading = is_smooth_[p.shape] && !sides_[p.shape].emits;
+        return glm::dot(by_shading ? shading_normal(geometry().shapes()[p.shape], p) : p.normal, w) > 0.0;
+    }
+    // The unknown of the radiance that leaves p along w.
     std::uint32_t unknown(const SurfacePoint& p, const Vec3& w) const {
-        const bool front = glm::dot(p.normal, w) > 0.0;
+        const bool front = is_front(p, w);
         if (sides_[p.shape].of(front) == 0) return nothing();
         return unknown(patches_.locate(p), front, p, w);
     }
     // z points away from the facet's side: the shading normal, as in R at a point.
     Frame frame(const Facet& facet, const SurfacePoint& p) const { return frame(facet.front, p); }
     // Whether that normal is another one at each point of a plane patch.
-    bool is_smooth(const Facet& facet) const {
-        return has_smooth_normals(geometry().shapes()[patches_.chart(facet.patch).shape()]);
-    }
+    bool is_smooth(const Facet& facet) const { return is_smooth_[patches_.chart(facet.patch).shape()]; }
 
     // The radiance that leaves p along w, interpolated linearly between patches: Σ weight · field[unknown]. The weight is 0 if
     // there is no unknown.
@@ -99,6 +103,7 @@ private:
 
     Patches patches_;
     std::vector<SideDirections> sides_;
+    std::vector<bool> is_smooth_;  // of shapes
     std::vector<Facet> facets_;
     std::vector<std::uint32_t> facet_of_unknown_;
     std::vector<std::uint32_t> facet_of_side_, first_of_side_;  // front and back of each patch; first unknown, or nothing()

@@ -117,7 +117,7 @@ void FieldGather::read_or_go_on(PixelRay& l, const FieldPair& fields, bool compa
     const bool reads_raster = !l.diffuse && fields.by_links && bsdf && !is_glossy(bsdf);
     LinkRaster::Reading by_links;
     if (reads_raster)
-        by_links = fields.by_links->raster.read(place.chart, glm::dot(l.y.normal, l.wi) < 0.0,
+        by_links = fields.by_links->raster.read(place.chart, space.is_front(l.y, -l.wi),
                                                 LinkRaster::spread(space.patches().charts()[place.chart], place.st));
     arrive(fields.fine, l, place, reads_raster ? &fields.by_links->fine_replaced : nullptr, by_links.fine, arriving);
     add_reflected(l.through, arriving.data(), from_field_, stride_, l.sample->values);

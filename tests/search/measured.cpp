@@ -113,7 +113,7 @@ Measured measure(const std::string& method, const BounceSeries& series) {
     measured.misses_paths = series.paths != Paths::all || says(series.warnings, "missing");
     // `surface` says so of itself where surfaces touch.
     const bool believes = !says(series.warnings, "is infinite, even if the samples do not show it");
-    const bool knows_normals = !says(series.warnings, "patches know no shading normals");
+    const bool knows_normals = !says(series.warnings, "patches know no normal or bump maps");
     const auto add = [&](const std::string& name, const PixelEstimate& picture, const PictureMeans& means, bool holds, bool unmet) {
         if (!all_of(picture.mean, is_value) || !all_of(picture.standard_error, is_error) ||
             !all_of(picture.discretisation, is_value) || !is_value(means.all.mean) || !is_error(means.all.standard_error))
