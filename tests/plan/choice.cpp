@@ -119,7 +119,8 @@ TEST(Choice, HiddenLightsTakeNoWalksFromThem) {
     scene.hide_emitters = true;
     const MethodChoice found = choice(scene);
     EXPECT_STRNE(name_of(found.method), "bidirectional");
-    EXPECT_EQ(found.trials.size(), 3u);
+    EXPECT_GE(found.trials.size(), 2u);
+    EXPECT_TRUE(std::ranges::none_of(found.trials, [](const auto& trial) { return trial.method == "bidirectional"; }));
 }
 
 TEST(Choice, WhatIsMadeLeastIsHandedOn) {
