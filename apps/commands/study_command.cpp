@@ -189,13 +189,13 @@ StudyEnd run_study(StudyRequest request, const Scene& scene, double scene_second
     }
 
     const Stopwatch pilot_watch;
-    const int wanted = request.resume ? journal.plan.at("bounces").get<int>() : request.bounces.value_or(scene.bounces.value_or(0));
-    const Pilot pilot(scene, {}, request.seed, wanted);
+    const std::optional<int> given = request.resume    ? journal.plan.at("bounces").get<int>()
+                                     : request.bounces ? request.bounces
+                                                       : scene.bounces;
+    const Pilot pilot(scene, {}, request.seed, given.value_or(0));
     StudyData data{request, methods, scene, pilot, 0, {}, {}, scene_seconds, 0.0, true, {}, {}, {}, false};
     data.pilot_seconds = pilot_watch.seconds();
-    data.bounces = request.resume    ? journal.plan.at("bounces").get<int>()
-                   : request.bounces ? *request.bounces
-                                     : scene.bounces.value_or(default_bounces(pilot));
+    data.bounces = given ? *given : default_bounces(pilot);
     auto reference = given_reference(request, scene.film, data.bounces);
 
     const auto nothing_done = [&] {
