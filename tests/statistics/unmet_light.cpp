@@ -17,8 +17,8 @@ void look_through(SceneMaker& maker, const Vec3& from, const Vec3& back, const V
     film.filter = BoxFilter();
 }
 
-BounceSeries rendered(const Scene& scene, const Method& method, int bounces, std::uint64_t seed) {
-    return render(scene, method, {.bounces = bounces, .samples = 64, .seed = seed});
+BounceSeries rendered(const Scene& scene, const Method& method, int bounces, std::uint64_t seed, std::uint32_t samples = 64) {
+    return render(scene, method, {.bounces = bounces, .samples = samples, .seed = seed});
 }
 
 // A floor of albedo 1/2 under a ball lamp of radius 1/2, 2 above it, seen through a lens of 0.1°: bounce 1 is 1/2 (1/4)² beneath
@@ -61,13 +61,14 @@ TEST(UnmetLight, ALampThatIsSeenIsNotDark) {
     for (const Rgb& error : series.term(0).pixel_errors().pixels) EXPECT_GT(error.r, 0.0);
 }
 
-// Few paths go on into the rest, and one that does brings all of it, divided by the probability.
+// Few paths go on into the rest, and one that does brings all of it, divided by the probability. Some 1/500 do: of 512 paths
+// none in a third of all seeds, which 24 seeds do not show once with a probability of 1e-4.
 TEST(UnmetLightSlow, InTheRest) {
     const double albedo = 0.9995, dim = 1e-9, exact = dim * std::pow(albedo, 4) / (1.0 - albedo);
     const Scene scene = two_balls(albedo, dim);
     int outside = 0, unmet = 0;
-    for (std::uint64_t seed = 0; seed < 16; ++seed) {
-        const SeriesReport report = rendered(scene, method::Walk(), 3, seed).report;
+    for (std::uint64_t seed = 0; seed < 24; ++seed) {
+        const SeriesReport report = rendered(scene, method::Walk(), 3, seed, 32).report;
         ASSERT_EQ(report.rest_verdict, RestVerdict::measured);
         unmet += report.rest_unmet;
         outside += report.rest_unmet && report.rest.interval() < exact;
