@@ -33,7 +33,7 @@ Approximation::Approximation(const Scene& scene, const ApproximationSettings& se
     if (sides.empty()) return;
     check_memory(settings, static_cast<double>(settings.patches));
     diffuse_scene_.emplace(with_diffuse_materials(scene));
-    space_.emplace(scene_patches(*diffuse_scene_, {.patches = settings.patches, .grading = 0.5}));
+    space_.emplace(scene_patches(*diffuse_scene_, {.patches = settings.patches, .grading = 0.5, .compared = false}));
     check_memory(settings, static_cast<double>(space_->patches().size()));
     const TracedSeries series = trace_series(*diffuse_scene_, *space_, space_->coarser(),
                                              {.bounces = settings.bounces,

@@ -22,7 +22,7 @@ void check_guide_memory(const GuideSettings& settings, double unknowns, double f
 
 PatchSpace make_guide_space(const Scene& scene, const GuideSettings& settings) {
     check_guide_memory(settings, 1.0, 1.0);
-    PatchSpace space = scene_patches(scene, {.patches = settings.patches});
+    PatchSpace space = scene_patches(scene, {.patches = settings.patches, .compared = false});
     const auto patches = static_cast<double>(space.patches().size());
     check_guide_memory(settings, space.size() / patches, static_cast<double>(space.facets().size()) / patches);
     return space;

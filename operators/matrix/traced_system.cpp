@@ -22,7 +22,7 @@ constexpr double bytes_of_unknown = 160.0, bytes_of_ray = 16.0;
 PatchSpace traced_space(const Scene& scene, const TracedSettings& settings, int processes) {
     const double bytes_of_own = bytes_of_ray / processes;
     check_patch_memory(settings.patches, settings.rays, bytes_of_unknown + settings.rays * bytes_of_own, settings.memory);
-    PatchSpace space = scene_patches(scene, {.patches = settings.patches});
+    PatchSpace space = scene_patches(scene, {.patches = settings.patches, .compared = false});
     if (space.size() == 0) throw InputError("no surface faces another or shines: K is 0 and has no unknowns");
     const double bytes = space.size() * bytes_of_unknown + static_cast<double>(RayTable::size(space, settings.rays)) * bytes_of_own;
     check_patch_memory(settings.patches, settings.rays, bytes / static_cast<double>(space.patches().size()), settings.memory);

@@ -52,8 +52,9 @@ constexpr double near = 0.25;
 constexpr double least_weight = 0.5;
 
 // The smallest width of cells for which there are at most `wanted` cells.
-Cutting choose_cutting(const std::vector<Chart>& charts, double area, std::size_t wanted) {
-    const bool divides = 4 * charts.size() <= wanted;
+Cutting choose_cutting(const std::vector<Chart>& charts, double area, const Patching& patching) {
+    const std::size_t wanted = patching.patches;
+    const bool divides = patching.compared || 4 * charts.size() <= wanted;
     double high = 4.0 * std::sqrt(area), low = 0.25 * std::sqrt(area / static_cast<double>(wanted));
     for (int i = 0; i < 60; ++i) {
         const double middle = std::sqrt(low * high);
@@ -71,7 +72,7 @@ Patches::Patches(const Geometry& geometry, const Patching& patching, const std::
     if (patching.patches == 0) throw InputError("0 patches: at least one is needed");
     const double area = sum_of_areas(areas);
     if (area == 0.0) throw InputError("the scene has no surfaces, so there is nothing to cut into patches");
-    const Cutting cutting = choose_cutting(charts(), area, patching.patches);
+    const Cutting cutting = choose_cutting(charts(), area, patching);
     const auto cells = static_cast<double>(count_cells(charts(), cutting));
     footprints_ = find_footprints(geometry, charts(), near * std::sqrt(area / cells));
     for (std::uint32_t number = 0; number < charts().size(); ++number) {

@@ -13,8 +13,10 @@
 namespace neumann {
 
 struct Patching {
-    std::size_t patches = 4000;  // approximate number; at least one per chart, and four where there are enough for that
+    std::size_t patches = 4000;  // approximate number; at least four per chart, if compared
     double grading = 0.7;        // in [0, 1): cells at an edge are narrower by the factor 1 − grading
+    // With coarser(), which then has others on every chart. If not, a chart may be one patch where `patches` are few.
+    bool compared = true;
     bool operator==(const Patching&) const = default;
 };
 

@@ -333,6 +333,18 @@ TEST(Patches, CoarserOnesAreUnionsOfFinerOnes) {
     }
 }
 
+// Otherwise a discretisation that compares them would be nothing.
+TEST(Patches, CoarserOnesAreOthersOnEveryChart) {
+    for (const ClosedScene& e : surfaces()) {
+        const Scene scene = e.maker.make();
+        const Patches fine(scene.geometry, {1, 0.7}), coarse = fine.coarser();
+        std::vector<std::size_t> more(fine.charts().size());
+        for (std::uint32_t i = 0; i < fine.size(); ++i) ++more[fine.chart_number(i)];
+        for (std::uint32_t i = 0; i < coarse.size(); ++i) --more[coarse.chart_number(i)];
+        for (const std::size_t n : more) EXPECT_GT(n, 0u) << e.name;
+    }
+}
+
 TEST(Patches, RefuseWhatCannotBeCut) {
     const Scene empty = SceneMaker().make();
     EXPECT_THROW(Patches(empty.geometry, {100, 0.0}), InputError);
