@@ -12,6 +12,9 @@ namespace neumann {
 
 namespace {
 
+// Of more parts few are sampled often.
+constexpr std::size_t most_kept_places = 4096;
+
 // Limits the probability of the light with this index to 1/2 if there are others, because BSDF sampling finds an environment
 // anyway.
 void limit_to_half(std::vector<double>& share, std::size_t index) {
@@ -55,14 +58,18 @@ LightSampler::LightSampler(const Geometry& geometry, const Emitters& emitters, L
       place_(place),
       table_(geometry, emitters, share,
              place == LightPlace::area ? LightTable::Rectangles::as_triangles : LightTable::Rectangles::whole) {
-    for (const Part& part : table_.parts()) {
-        places_.push_back(geometry.place(part.shape, part.primitive));
-        second_places_.push_back(geometry.place(part.shape, part.primitive + (part.is_rectangle() ? 1 : 0)));
-    }
+    if (table_.parts().size() <= most_kept_places) keep_places();
     for (std::uint32_t shape = 0; shape < geometry.shapes().size(); ++shape)
         density_of_shape_.push_back(share[shape] == 0.0 ? 0.0
                                                         : (choice == LightChoice::all ? 1.0 : share[shape]) / emitters.area(shape));
     if (choice == LightChoice::tree) tree_ = make_tree();
+}
+
+void LightSampler::keep_places() {
+    for (const Part& part : table_.parts()) {
+        places_.push_back(geometry_->place(part.shape, part.primitive));
+        second_places_.push_back(geometry_->place(part.shape, part.primitive + (part.is_rectangle() ? 1 : 0)));
+    }
 }
 
 LightTree LightSampler::make_tree() {

@@ -86,7 +86,7 @@ public:
     }
     EvenPoint sample_even_point(const Vec2& uv) const {
         const LightTable::Choice chosen = table_.choose(uv.x);
-        const Geometry::Place& place = places_[chosen.index];
+        const Geometry::Place place = place_of(chosen.index);
         return {geometry_->point(place, Vec2(chosen.left, uv.y)), emitters_->even_radiance(place.shape),
                 density_of_shape_[place.shape]};
     }
@@ -105,6 +105,7 @@ private:
                  const std::vector<double>& share);
 
     using Part = LightTable::Part;
+    void keep_places();
     // The factor from a density per area to one per solid angle: d² / |cosθ|.
     static double per_solid_angle(const Vec3& d, const Vec3& normal, const Vec3& w) {
         return glm::dot(d, d) / std::abs(glm::dot(normal, w));
@@ -117,10 +118,19 @@ private:
         if (as_seen) return on_part_as_seen(part, density, x, uv);
         return at_point(evenly_on(part, uv), density, x.position);
     }
+    Geometry::Place place_of(std::size_t part) const {
+        const Part& p = table_.parts()[part];
+        return places_.empty() ? geometry_->place(p.shape, p.primitive) : places_[part];
+    }
+    // Of the second triangle of a rectangle.
+    Geometry::Place second_place_of(std::size_t part) const {
+        const Part& p = table_.parts()[part];
+        return places_.empty() ? geometry_->place(p.shape, p.primitive + 1) : second_places_[part];
+    }
     SurfacePoint evenly_on(std::size_t part, const Vec2& uv) const {
-        if (!table_.parts()[part].is_rectangle()) return geometry_->point(places_[part], uv);
+        if (!table_.parts()[part].is_rectangle()) return geometry_->point(place_of(part), uv);
         const double u = 2.0 * uv.x;
-        return u < 1.0 ? geometry_->point(places_[part], {u, uv.y}) : geometry_->point(second_places_[part], {u - 1.0, uv.y});
+        return u < 1.0 ? geometry_->point(place_of(part), {u, uv.y}) : geometry_->point(second_place_of(part), {u - 1.0, uv.y});
     }
     LightSample at_point(const SurfacePoint& point, double density, const Vec3& x) const {
         LightSample light;
@@ -139,7 +149,7 @@ private:
         if (table_.is_distant(chosen.index))
             return on_distant(table_.distant(chosen.index), choice_ == LightChoice::all ? 1.0 : chosen.probability, x.position,
                               left);
-        return on_part(chosen.index, density_of_shape_[places_[chosen.index].shape], x, left);
+        return on_part(chosen.index, density_of_shape_[table_.parts()[chosen.index].shape], x, left);
     }
     LightSample on_distant(std::size_t index, double probability, const Vec3& x, const Vec2& uv) const;
     LightSample on_part_as_seen(std::size_t part, double density, const Receiver& x, const Vec2& uv) const;
@@ -175,7 +185,7 @@ private:
     LightTable table_;
     LightTree tree_;                              // of the table's entries that have a place
     std::vector<std::size_t> everywhere_;         // the others: of the table
-    std::vector<Geometry::Place> places_;         // of the table's parts
+    std::vector<Geometry::Place> places_;         // of the table's parts, unless they are many
     std::vector<Geometry::Place> second_places_;  // of the second triangles of its rectangles
     std::vector<double> density_of_shape_;        // density of a sample, per area
 };

@@ -90,6 +90,25 @@ public:
         }
         return found;
     }
+    // As first_hits(), for estimates to which it does not matter which of two surfaces is met where they are closer together than
+    // floats resolve: nothing is asked about what is near. `from` may give bare points, and the hits are bare.
+    template <class FromAt, class HitAt>
+    std::uint32_t rough_hits(std::size_t n, const FromAt& from, const HitAt& hit) const {
+        if (!giants_.empty()) return first_hits(n, from, hit);
+        RayCaster::Packet packet(*caster_);
+        for (std::size_t i = 0; i < n; ++i) {
+            const auto& [x, w] = from(i);
+            packet.add(leave(x, glm::dot(x.normal, w)), w);
+        }
+        RayCaster::Hit hits[RayCaster::packet_size];
+        const std::uint32_t found = caster_->intersect(packet, hits, RayCaster::Rays::any);
+        for (std::size_t i = 0; i < n; ++i)
+            if (found >> i & 1u) {
+                const auto& [x, w] = from(i);
+                put_bare(x.position, w, hits[i], hit(i));
+            }
+        return found;
+    }
     template <class PairAt>
     std::uint32_t visible(std::size_t n, const PairAt& pair, RayCaster::Rays kind) const {
         if (!giants_.empty())
@@ -144,8 +163,10 @@ public:
         return p;
     }
 
-    // Such a point, of which it is not found out whether it is close.
+    // Such a point, of which it is not found out whether it is close; look_around() does that, and moves a point that is close off
+    // faces that cross its own.
     SurfacePoint bare_point(const Place& place, const Vec2& uv) const;
+    void look_around(SurfacePoint& p) const { look_around(p, nullptr); }
     // What a ray along the normal back to such a point meets first, where it starts so many of the point's errors in front of it
     // and ends as far behind: the point, or a bare point of a face that lies in the same place. Of a heap of faces a few are
     // compared, whatever its size.
@@ -195,6 +216,17 @@ private:
         }
         return put_among_others(start, direction, hit, p);
     }
+    void put_bare(const Vec3& origin, const Vec3& direction, const RayCaster::Hit& hit, SurfacePoint& p) const {
+        if (!triangles_[hit.shape].empty()) {
+            const Triangle& t = triangles_[hit.shape][hit.primitive];
+            const Triangle::Meeting m = t.meet(origin, direction);
+            if (t.is_hit(m)) {
+                p = {m.position, t.normal(), t.error(), hit.shape, hit.primitive};
+                return;
+            }
+        }
+        put_alone(origin, direction, hit, p);
+    }
     bool put_among_others(const RayStart& start, const Vec3& direction, const RayCaster::Hit& hit, SurfacePoint& p) const;
     SurfacePoint hit_among_others(const RayStart& start, const Vec3& direction, const RayCaster::Hit& hit) const;
     // The hit by itself, whatever else is near. Returns false if the ray passes beside the face that Embree found, within Embree's
@@ -207,8 +239,7 @@ private:
     SurfacePoint on_triangle(const Triangle& t, std::uint32_t shape, std::uint32_t primitive, const Vec3& position) const {
         return {t.at(position, [&] { return edges(shape, primitive); }), t.normal(), t.error(), shape, primitive};
     }
-    // Sets p.close, and moves a point that is close off faces that cross its own.
-    void look_around(SurfacePoint& p, const StartedRay* ray = nullptr) const;
+    void look_around(SurfacePoint& p, const StartedRay* ray) const;
     // A face close to the hit p may be hit first; then moves p to it. Returns false if the ray misses p's own face.
     bool settle(const RayStart& start, const Vec3& direction, SurfacePoint& p) const;
     // After that: the first hit, with the close faces in double and all others by Embree, whose ray starts at `embree_start`.

@@ -40,7 +40,8 @@ Approximation::Approximation(const Scene& scene, const ApproximationSettings& se
                                               .rays = settings.rays,
                                               .light_samples = std::min(settings.rays, most_light_samples),
                                               .seed = settings.seed ^ field_stream,
-                                              .rest = true},
+                                              .rest = true,
+                                              .rough_rays = true},
                                              watch);
     fields_.emplace(scene, sides, series.fine, settings.seed, watch);
     tables_.emplace(series.fine,

@@ -78,7 +78,7 @@ SurfacePoint FieldRaster::node(std::uint32_t chart, const Grid& grid, std::uint3
 // Across the faces of a part of a cluster, Roberts' R2 sequence.
 SurfacePoint FieldRaster::place_in_part(std::uint32_t chart, const Grid& grid, std::uint32_t column, std::uint32_t i) const {
     const double s = (column + (i + 0.5) / places_of_part) / grid.columns;
-    return space_->patches().charts()[chart].point(space_->geometry(), {s, glm::fract(0.5 + 0.7548776662466927 * i)});
+    return space_->patches().charts()[chart].bare_point(space_->geometry(), {s, glm::fract(0.5 + 0.7548776662466927 * i)});
 }
 
 void FieldRaster::fill(const FieldStack& fields) {

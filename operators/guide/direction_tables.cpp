@@ -75,13 +75,11 @@ CellDistribution::Weights smooth(const CellDistribution::Weights& seen) {
 NEUMANN_HOT void look_around(const PatchSpace& space, const SobolPoints& sobol, std::uint64_t seed, std::uint32_t facet,
                              const Attraction& attraction, double share_of_material, std::span<CellDistribution> tables) {
     std::array<CellDistribution::Weights, DirectionTables::most_tables> seen{};
-    for_rays_of_facet(
-        space, sobol, seed, facet,
-        [&](const Vec2& u, const Sight& sight) {
-            const std::uint32_t cell = CellDistribution::grid.cell_of_square(u);
-            for (std::size_t t = 0; t < tables.size(); ++t) seen[t][cell] += attraction[sight.unknown][t];
-        },
-        4);
+    // Only how often directions are sampled hangs on them.
+    for_rays_of_facet(space, sobol, seed, facet, {.of_a_point = 4, .rough = true}, [&](const Vec2& u, const Sight& sight) {
+        const std::uint32_t cell = CellDistribution::grid.cell_of_square(u);
+        for (std::size_t t = 0; t < tables.size(); ++t) seen[t][cell] += attraction[sight.unknown][t];
+    });
     for (std::size_t t = 0; t < tables.size(); ++t)
         tables[t] = mixture(sobol.size() < rays_of_sharp_table ? smooth(seen[t]) : seen[t], share_of_material);
 }

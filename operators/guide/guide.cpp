@@ -36,7 +36,8 @@ Guide::Guide(const Scene& scene, const GuideSettings& settings, const Watch& wat
                                              {.bounces = DirectionTables::terms(settings.bounces),
                                               .rays = settings.field_rays,
                                               .seed = settings.seed ^ guide_stream,
-                                              .rest = false},
+                                              .rest = false,
+                                              .rough_rays = true},
                                              watch);
     tables_.emplace(series.fine, TableSettings{settings.rays, settings.share_of_material, settings.bounces, settings.seed}, watch);
     rays_ = series.rays + tables_->rays();

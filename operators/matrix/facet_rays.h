@@ -23,11 +23,17 @@ struct Sight {
 // All rays of a facet, one for each Sobol' point, ordered so that neighbours have similar directions: Embree is faster then.
 std::vector<FacetRay> facet_rays(const SobolPoints& sobol, std::uint64_t seed, std::uint32_t number);
 
-// Casts the rays and calls f(u, sight) for each in order; u is the direction on its square. So many of a point, a power of two up
-// to the packet's size, start where the first of them does: points on a fine mesh are in cold memory.
+// How they are cast. So many `of_a_point`, a power of two up to the packet's size, start where the first of them does: points on a
+// fine mesh are in cold memory. `rough`: as Geometry::rough_hits().
+struct FacetRayCasting {
+    std::size_t of_a_point = 1;
+    bool rough = false;
+};
+
+// Casts the rays and calls f(u, sight) for each in order; u is the direction on its square.
 template <class F>
-void for_rays_of_facet(const PatchSpace& space, const SobolPoints& sobol, std::uint64_t seed, std::uint32_t number, const F& f,
-                       std::size_t of_a_point = 1) {
+void for_rays_of_facet(const PatchSpace& space, const SobolPoints& sobol, std::uint64_t seed, std::uint32_t number,
+                       const FacetRayCasting& casting, const F& f) {
     struct Departure {
         SurfacePoint x;
         Vec3 w;
@@ -43,19 +49,21 @@ void for_rays_of_facet(const PatchSpace& space, const SobolPoints& sobol, std::u
     for (std::size_t begin = 0; begin < rays.size(); begin += packet) {
         const std::size_t n = std::min(packet, rays.size() - begin);
         for (std::size_t i = 0; i < n; ++i) {
-            if (i % of_a_point > 0)
+            if (i % casting.of_a_point > 0)
                 from[i].x = from[i - 1].x;
             else
-                from[i].x = space.patches().point(facet.patch, rays[begin + i].point);
+                from[i].x = casting.rough ? space.patches().bare_point(facet.patch, rays[begin + i].point)
+                                          : space.patches().point(facet.patch, rays[begin + i].point);
             if (smooth || from[i].x.normal != normal) {  // constant on a plane patch
                 normal = from[i].x.normal;
                 frame = space.frame(facet, from[i].x);
             }
             from[i].w = frame.to_world(cosine_hemisphere(rays[begin + i].direction));
         }
-        const std::uint32_t found = space.geometry().first_hits(
-            n, [&](std::size_t i) { return std::pair<const SurfacePoint&, const Vec3&>(from[i].x, from[i].w); },
-            [&](std::size_t i) -> SurfacePoint& { return hit[i]; });
+        const auto departure = [&](std::size_t i) { return std::pair<const SurfacePoint&, const Vec3&>(from[i].x, from[i].w); };
+        const auto arrival = [&](std::size_t i) -> SurfacePoint& { return hit[i]; };
+        const std::uint32_t found =
+            casting.rough ? space.geometry().rough_hits(n, departure, arrival) : space.geometry().first_hits(n, departure, arrival);
         for (std::size_t i = 0; i < n; ++i)
             f(rays[begin + i].direction, found >> i & 1u ? Sight{space.unknown(hit[i], -from[i].w), &hit[i], from[i].w}
                                                          : Sight{space.nothing(), nullptr, from[i].w});

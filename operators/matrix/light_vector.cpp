@@ -78,7 +78,7 @@ ExitantVector<C> emitted_light(const Scene& scene, const PatchSpace& space, cons
             for (std::uint32_t i = 0; i < points.size(); ++i) {
                 sampler.start(i);
                 const Vec2 u = sampler.next2();
-                const SurfacePoint p = space.patches().point(facet.patch, sampler.next2());
+                const SurfacePoint p = space.patches().bare_point(facet.patch, sampler.next2());
                 if (!scene.emitters.is_emitter(p.shape)) return;
                 sum += scene.emitters.emitted(p, space.frame(facet, p).to_world(facet.cells.direction(cell, u)));
             }

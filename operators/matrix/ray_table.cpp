@@ -5,7 +5,7 @@
 namespace neumann {
 
 RayTable::RayTable(const RowShare& own, std::uint32_t rays, std::uint64_t seed, const Watch& watch,
-                   const std::function<void(const BlindRay&)>& on_blind_ray, KeptRows* kept)
+                   const std::function<void(const BlindRay&)>& on_blind_ray, KeptRows* kept, bool rough)
     : space_(&own.space()), begin_(own.begin()), end_(own.end()) {
     first_.push_back(0);
     for (std::uint32_t f = 0; f < space_->facets().size(); ++f)
@@ -13,7 +13,7 @@ RayTable::RayTable(const RowShare& own, std::uint32_t rays, std::uint64_t seed, 
     seen_ = make_large_array<std::uint32_t>(first_.back());
     std::vector<std::uint32_t> facets(end_ - begin_);
     std::iota(facets.begin(), facets.end(), begin_);
-    trace_rows({*space_, rays, seed, facets, std::span(first_).subspan(begin_, facets.size() + 1)},
+    trace_rows({*space_, rays, seed, facets, std::span(first_).subspan(begin_, facets.size() + 1), rough},
                {watch, own, own.is_shared(), on_blind_ray, kept}, seen_.get());
 }
 

@@ -22,8 +22,9 @@ public:
              const std::function<void(const BlindRay&)>& on_blind_ray = {})
         : RayTable(RowShare(space), rays, seed, watch, on_blind_ray) {}
     // The rows of a process alone; those of others are empty. For all processes together, which all throw Stopped if one does.
+    // `rough`: as Geometry::rough_hits().
     RayTable(const RowShare& own, std::uint32_t rays, std::uint64_t seed, const Watch& watch,
-             const std::function<void(const BlindRay&)>& on_blind_ray, KeptRows* kept = nullptr);
+             const std::function<void(const BlindRay&)>& on_blind_ray, KeptRows* kept = nullptr, bool rough = false);
     // The number of rays that such a table has in all.
     static std::size_t size(const PatchSpace& space, std::uint32_t rays);
 

@@ -21,7 +21,7 @@ Rgb mean_reflectance(const Bsdf& bsdf, const PatchSpace& space, const Facet& fac
     Sampler sampler(points, 0, number);
     for (std::uint32_t i = 0; i < points.size(); ++i) {
         sampler.start(i);
-        const SurfacePoint p = space.patches().point(facet.patch, sampler.next2());
+        const SurfacePoint p = space.patches().bare_point(facet.patch, sampler.next2());
         const Rgb rho = reflectance(bsdf, shading_point(space.geometry().shapes()[p.shape], p));
         if (is_constant(bsdf)) return rho;
         sum += rho;

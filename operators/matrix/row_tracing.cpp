@@ -27,13 +27,14 @@ constexpr std::size_t rows_compared = 16;
 
 using SobolByRays = std::map<std::uint32_t, SobolPoints>;  // by number of rays
 
-NEUMANN_HOT void trace_row(const PatchSpace& space, const SobolPoints& sobol, std::uint64_t seed, std::uint32_t number,
+NEUMANN_HOT void trace_row(const RowsToTrace& rows, const SobolPoints& sobol, std::uint32_t number,
                            const std::function<void(const BlindRay&)>& on_blind_ray, std::uint32_t* row) {
+    const PatchSpace& space = rows.space;
     const Facet& facet = space.facets()[number];
     const DirectionCells cells = facet.cells;
     const std::uint32_t each = sobol.size() / cells.size();
     std::vector<std::uint32_t> filled(cells.size());
-    for_rays_of_facet(space, sobol, seed, number, [&](const Vec2& u, const Sight& sight) {
+    for_rays_of_facet(space, sobol, rows.seed, number, {.rough = rows.rough}, [&](const Vec2& u, const Sight& sight) {
         const std::uint32_t cell = cells.cell_of_square(u), place = cell * each + filled[cell]++;
         row[place] = sight.unknown;
         if (on_blind_ray && sight.hit && sight.unknown == space.nothing())
@@ -78,7 +79,7 @@ void expect_same_rays(const RowsToTrace& rows, const SobolByRays& sobol, std::sp
         if (std::ranges::binary_search(to_trace, i)) continue;
         const std::span kept(seen + rows.first_ray[i], rows.first_ray[i + 1] - rows.first_ray[i]);
         std::vector<std::uint32_t> again(kept.size());
-        trace_row(rows.space, sobol.at(static_cast<std::uint32_t>(kept.size())), rows.seed, rows.facets[i], {}, again.data());
+        trace_row(rows, sobol.at(static_cast<std::uint32_t>(kept.size())), rows.facets[i], {}, again.data());
         if (!std::ranges::equal(again, kept))
             throw KeptRowsError(
                 "the rays that are kept are not those that this program traces here; expected another folder with --keep");
@@ -149,7 +150,7 @@ void trace_rows(const RowsToTrace& rows, const RowTracing& how, std::uint32_t* s
             }
             for (std::size_t k = range.begin(); k < range.end(); ++k) {
                 const std::uint32_t i = which[k], f = rows.facets[i];
-                trace_row(rows.space, sobol.at(rays_of(rows.space.facets()[f], rows.rays)), rows.seed, f, how.on_blind_ray,
+                trace_row(rows, sobol.at(rays_of(rows.space.facets()[f], rows.rays)), f, how.on_blind_ray,
                           seen + rows.first_ray[i]);
             }
         });

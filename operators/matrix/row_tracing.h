@@ -33,6 +33,7 @@ struct RowsToTrace {
     std::uint64_t seed;
     std::span<const std::uint32_t> facets;
     std::span<const std::size_t> first_ray;
+    bool rough = false;  // as Geometry::rough_hits()
 };
 
 // Where and how rows are traced.

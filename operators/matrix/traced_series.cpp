@@ -212,7 +212,7 @@ TracedSeries trace_light(const Scene& scene, const RowShare& rows, const PatchSp
     Chains chains(scene, space, settings.rays, settings.seed, settings.bounces);
     std::function<void(const BlindRay&)> go_on;
     if (settings.glossy == Glossy::by_rays) go_on = [&](const BlindRay& ray) { chains.follow(ray); };
-    const RayTable table(rows, settings.rays, settings.seed, watch, go_on);
+    const RayTable table(rows, settings.rays, settings.seed, watch, go_on, nullptr, settings.rough_rays);
     const std::size_t table_rays = RayTable::size(space, settings.rays);
     chains.finish();
     const int longest_chain = static_cast<int>(rows.largest(chains.longest()));

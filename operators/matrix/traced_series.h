@@ -27,6 +27,7 @@ struct TracedSeriesSettings {
     bool rest = true;                  // also compute Σ_{k>N}
     Glossy glossy = Glossy::in_cells;  // as the space was made
     std::uint32_t camera_samples = 2;  // per pixel, for We; a power of two
+    bool rough_rays = false;           // of T, as Geometry::rough_hits(): for fields that something corrects
 };
 
 struct TracedSeries {

@@ -89,7 +89,13 @@ public:
         return clusters_ ? clusters_->coordinates(geometry, p) : coordinates(geometry, p.position);
     }
     SurfacePoint point(const Geometry& geometry, const Vec2& st) const {
-        if (clusters_) return clusters_->point(geometry, shape_, st);
+        SurfacePoint p = bare_point(geometry, st);
+        if (clusters_) geometry.look_around(p);
+        return p;
+    }
+    // On clusters, whose faces are many, it is not found out whether the point is close.
+    SurfacePoint bare_point(const Geometry& geometry, const Vec2& st) const {
+        if (clusters_) return clusters_->bare_point(geometry, shape_, st);
         if (!quad_) return geometry.point(shape_, 0, st);
         const Vec3 p = quad_->position(st);
         return geometry.point_on_triangle(shape_, glm::dot(p - corners_[0], up_) > 0.0 ? upper_ : lower_, p);

@@ -151,11 +151,11 @@ Vec2 FaceClusters::coordinates(const Geometry& geometry, const SurfacePoint& p) 
     return {place_[rank] + (place_[rank + 1] - place_[rank]) * within(inside.x), within(inside.y)};
 }
 
-SurfacePoint FaceClusters::point(const Geometry& geometry, std::uint32_t shape, const Vec2& st) const {
+SurfacePoint FaceClusters::bare_point(const Geometry& geometry, std::uint32_t shape, const Vec2& st) const {
     const auto after = std::upper_bound(place_.begin(), place_.end() - 1, st.x);
     const auto i = static_cast<std::size_t>(after - place_.begin()) - 1;
     const double s = (st.x - place_[i]) / (place_[i + 1] - place_[i]);
-    return geometry.point(shape, faces_[i], {std::clamp(s, 0.0, 1.0), st.y});
+    return geometry.bare_point(geometry.place(shape, faces_[i]), {std::clamp(s, 0.0, 1.0), st.y});
 }
 
 std::span<const std::uint32_t> FaceClusters::faces(double from, double to) const {

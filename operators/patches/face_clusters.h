@@ -28,7 +28,7 @@ public:
     double place(std::uint32_t face) const { return place_[rank_[face]]; }
     // Area-preserving coordinates of points in [0, 1)²: s is the share of area before the point, t runs across its face.
     Vec2 coordinates(const Geometry& geometry, const SurfacePoint& p) const;
-    SurfacePoint point(const Geometry& geometry, std::uint32_t shape, const Vec2& st) const;
+    SurfacePoint bare_point(const Geometry& geometry, std::uint32_t shape, const Vec2& st) const;
     // The faces that begin in a range of places.
     std::span<const std::uint32_t> faces(double from, double to) const;
 

@@ -70,8 +70,13 @@ public:
     SurfacePoint point(std::uint32_t number, const Vec2& u) const {
         const Patch& patch = patches_[number];
         const Chart& chart = charts()[patch.chart];
-        if (patch.part == whole) return chart.point(*geometry_, chart.uniform(patch.cell, u));
-        return parts_[patch.part].point(*geometry_, chart, footprints_[patch.chart], patch.cell, patch.region, u);
+        return patch.part == whole ? chart.point(*geometry_, chart.uniform(patch.cell, u)) : point_of_part(patch, u);
+    }
+    // The same, as Chart::bare_point().
+    SurfacePoint bare_point(std::uint32_t number, const Vec2& u) const {
+        const Patch& patch = patches_[number];
+        const Chart& chart = charts()[patch.chart];
+        return patch.part == whole ? chart.bare_point(*geometry_, chart.uniform(patch.cell, u)) : point_of_part(patch, u);
     }
 
     // Quadrilaterals that look like the patch; on a plane they cover it. A piece on an outline that divides a cell belongs to the
@@ -148,6 +153,9 @@ private:
     static Neighbours neighbours(const Axis& axis, double x);
     void add_grid(Axis s, Axis t);
     void add_cell(std::uint32_t chart, const Cell& cell, Parts parts);
+    SurfacePoint point_of_part(const Patch& patch, const Vec2& u) const {
+        return parts_[patch.part].point(*geometry_, charts()[patch.chart], footprints_[patch.chart], patch.cell, patch.region, u);
+    }
     std::optional<std::uint32_t> find(std::uint32_t cell, Region region) const;
     std::uint32_t nearest(std::uint32_t cell, Region region) const;
     static Region coarser(Region region);

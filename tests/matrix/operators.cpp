@@ -66,6 +66,23 @@ TEST(TransportMatrix, RowsSumToOneInClosedScenes) {
     }
 }
 
+// Rays that ask nothing about what is near differ where surfaces touch, within a millionth of the scene.
+TEST(TransportMatrix, RoughRaysSeeTheSameElsewhere) {
+    std::vector<ClosedScene> scenes = enclosures(matte(0.5));
+    SceneMaker maker;
+    maker.add(room({-2, -2, -2}, {2, 2, 2}), matte(0.5));
+    maker.add(icosphere(5), matte(0.5));
+    scenes.push_back({"fine mesh in a room", std::move(maker)});
+    for (const ClosedScene& e : scenes) {
+        const Scene scene = e.maker.make();
+        const PatchSpace space(scene.geometry, {500, 0.6}, side_directions(scene));
+        const RayTable exact(space, 64, 5), rough(RowShare(space), 64, 5, {}, {}, nullptr, true);
+        std::size_t others = 0;
+        for (std::size_t i = 0; i < exact.seen().size(); ++i) others += exact.seen()[i] != rough.seen()[i];
+        EXPECT_LE(static_cast<double>(others), 1e-3 * static_cast<double>(exact.seen().size())) << e.name;
+    }
+}
+
 TEST(TransportMatrix, RowsSumToLessWhereLightEscapes) {
     SceneMaker maker;
     maker.add(parallelogram({0, 0, 0}, {1, 0, 0}, {0, 1, 0}), matte(0.5));
