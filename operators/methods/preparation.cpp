@@ -29,10 +29,11 @@ constexpr std::size_t fewest_patches = 250;
 constexpr double price_of_ray = 0.6, seconds_of_face = 3e-7;
 
 using Shapes = std::vector<Preparations::ShapeSides>;
-double facets_of(const Shapes& shapes, double patches) {
+// `least`: patches of a shape.
+double facets_of(const Shapes& shapes, double patches, double least = 1.0) {
     double facets = 0.0;
     for (const Preparations::ShapeSides& shape : shapes)
-        if (shape.share > 0.0) facets += shape.sides * std::max(patches * shape.share, 1.0);
+        if (shape.share > 0.0) facets += shape.sides * std::max(patches * shape.share, least);
     return facets;
 }
 
@@ -55,7 +56,7 @@ Needs needs_of(const method::Corrected& corrected, const Shapes& shapes) {
 template <HasFields M>
 Needs needs_of(const M&, const Shapes& shapes) {
     const FieldSettings first = first_of_search(FieldSettings(), FieldSettings());
-    const double facets = facets_of(shapes, static_cast<double>(first.patching.patches));
+    const double facets = facets_of(shapes, static_cast<double>(first.patching.patches), 4.0);  // as Patching::compared
     return {facets, static_cast<double>(first.replicates) * (static_cast<double>(first.rays) + first.light_samples) * facets};
 }
 template <class M>
