@@ -2,9 +2,9 @@
 
 #include "apps/commands/interrupt.h"
 #include "apps/commands/print_warnings.h"
+#include "apps/commands/run_by_all.h"
 #include "apps/files/json_number.h"
 #include "apps/files/json_text.h"
-#include "apps/processes/together.h"
 #include "core/base/error.h"
 #include "operators/matrix/traced_system.h"
 #include "operators/petsc/petsc_solver.h"

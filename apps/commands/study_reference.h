@@ -2,7 +2,7 @@
 // caches for later studies in $XDG_CACHE_HOME/neumann or ~/.cache/neumann.
 #pragma once
 
-#include "apps/commands/study_command.h"
+#include "apps/commands/study_request.h"
 #include "apps/files/output_folder.h"
 #include "operators/study/study_plan.h"
 

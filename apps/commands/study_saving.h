@@ -2,7 +2,7 @@
 #pragma once
 
 #include "apps/commands/checkpoints.h"
-#include "apps/commands/study_command.h"
+#include "apps/commands/study_request.h"
 #include "apps/files/output_folder.h"
 #include "core/scene/scene.h"
 
