@@ -1,7 +1,7 @@
-// --method and the options that belong to methods, as operators/methods describes them.
+// --method and the options that belong to methods, as operators/render/methods describes them.
 #pragma once
 
-#include "operators/methods/method_options.h"
+#include "operators/render/methods/method_options.h"
 
 namespace CLI {
 class App;

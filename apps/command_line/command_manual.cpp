@@ -1,6 +1,6 @@
 #include "apps/command_line/command_manual.h"
 
-#include "apps/pages/page.h"
+#include "apps/output/pages/page.h"
 
 #include <fmt/format.h>
 #include <algorithm>

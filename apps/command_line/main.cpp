@@ -3,10 +3,10 @@
 #include "apps/command_line/commands.h"
 #include "apps/command_line/options.h"
 #include "apps/command_line/unknown_words.h"
-#include "apps/commands/interrupt.h"
 #include "apps/processes/launch.h"
 #include "core/base/did_you_mean.h"
 #include "core/base/error.h"
+#include "core/base/interrupt.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -2,7 +2,7 @@
 
 #include "apps/command_line/scenes_along.h"
 #include "apps/commands/patch_scene.h"
-#include "apps/files/chosen_files.h"
+#include "apps/output/files/chosen_files.h"
 
 #include <fmt/format.h>
 #include <charconv>

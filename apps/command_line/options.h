@@ -1,7 +1,7 @@
 // Options that several commands share. The validators have no description, because CLI11 would print it in the help.
 #pragma once
 
-#include "operators/methods/goal.h"
+#include "operators/render/methods/goal.h"
 
 #include <CLI/CLI.hpp>
 

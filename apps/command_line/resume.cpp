@@ -2,8 +2,8 @@
 
 #include "apps/command_line/commands.h"
 #include "apps/commands/render_command.h"
-#include "apps/files/json_text.h"
-#include "apps/files/saved_render.h"
+#include "apps/output/files/json_text.h"
+#include "apps/output/files/saved_render.h"
 #include "core/base/error.h"
 
 #include <fmt/format.h>

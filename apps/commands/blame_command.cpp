@@ -1,17 +1,17 @@
 #include "apps/commands/blame_command.h"
 
-#include "apps/commands/interrupt.h"
-#include "apps/commands/limits.h"
 #include "apps/commands/parse_definitions.h"
 #include "apps/commands/print_warnings.h"
-#include "apps/files/blame_files.h"
-#include "apps/files/json_text.h"
-#include "apps/files/other_picture.h"
-#include "apps/pages/blame_page.h"
+#include "apps/output/files/blame_files.h"
+#include "apps/output/files/json_text.h"
+#include "apps/output/files/other_picture.h"
+#include "apps/output/pages/blame_page.h"
 #include "core/base/error.h"
+#include "core/base/interrupt.h"
+#include "core/base/limits.h"
 #include "core/image/image_io.h"
 #include "core/reader/read_scene.h"
-#include "operators/blame/blame.h"
+#include "operators/experiments/blame/blame.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -1,7 +1,7 @@
 // `neumann blame PICTURES SCENE`: which bounce of another renderer is wrong, and in what way.
 #pragma once
 
-#include "operators/blame/blame.h"
+#include "operators/experiments/blame/blame.h"
 
 #include <cstdint>
 #include <optional>

@@ -1,9 +1,9 @@
 #include "apps/commands/compare_command.h"
 
-#include "apps/files/json_text.h"
-#include "apps/files/output_folder.h"
-#include "apps/files/rendered_picture.h"
-#include "apps/pages/compare_page.h"
+#include "apps/output/files/json_text.h"
+#include "apps/output/files/output_folder.h"
+#include "apps/output/files/rendered_picture.h"
+#include "apps/output/pages/compare_page.h"
 #include "core/base/error.h"
 #include "operators/statistics/flip.h"
 #include "operators/statistics/metrics.h"

@@ -1,15 +1,15 @@
 #include "apps/commands/conform_command.h"
 
-#include "apps/commands/interrupt.h"
-#include "apps/commands/limits.h"
-#include "apps/files/json_text.h"
-#include "apps/files/output_folder.h"
+#include "apps/output/files/json_text.h"
+#include "apps/output/files/output_folder.h"
 #include "core/base/error.h"
+#include "core/base/interrupt.h"
+#include "core/base/limits.h"
 #include "core/base/stopwatch.h"
-#include "core/colour/spectrum_to_rgb.h"
+#include "core/image/colour/spectrum_to_rgb.h"
 #include "core/image/image_io.h"
 #include "core/reader/read_scene.h"
-#include "operators/methods/render.h"
+#include "operators/render/methods/render.h"
 #include "operators/statistics/conformity.h"
 
 #include <fmt/format.h>

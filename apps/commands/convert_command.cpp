@@ -2,7 +2,7 @@
 
 #include "apps/commands/parse_definitions.h"
 #include "apps/commands/print_warnings.h"
-#include "apps/files/new_file.h"
+#include "apps/output/files/new_file.h"
 #include "core/base/error.h"
 #include "core/reader/convert_scene.h"
 

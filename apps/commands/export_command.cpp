@@ -1,12 +1,12 @@
 #include "apps/commands/export_command.h"
 
-#include "apps/commands/interrupt.h"
-#include "apps/commands/limits.h"
 #include "apps/commands/print_warnings.h"
-#include "apps/files/json_text.h"
-#include "apps/files/matrix_market.h"
-#include "apps/files/output_folder.h"
+#include "apps/output/files/json_text.h"
+#include "apps/output/files/matrix_market.h"
+#include "apps/output/files/output_folder.h"
 #include "core/base/error.h"
+#include "core/base/interrupt.h"
+#include "core/base/limits.h"
 
 #include <fmt/format.h>
 #include <algorithm>

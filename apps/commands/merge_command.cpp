@@ -1,15 +1,15 @@
 #include "apps/commands/merge_command.h"
 
-#include "apps/commands/limits.h"
 #include "apps/commands/parse_definitions.h"
 #include "apps/commands/print_rendering.h"
-#include "apps/files/rendering_files.h"
-#include "apps/files/saved_render.h"
+#include "apps/output/files/saved_render.h"
+#include "apps/output/rendering_files.h"
 #include "core/base/error.h"
+#include "core/base/limits.h"
 #include "core/base/stopwatch.h"
 #include "core/reader/read_scene.h"
-#include "operators/methods/merge.h"
-#include "operators/methods/render.h"
+#include "operators/render/methods/merge.h"
+#include "operators/render/methods/render.h"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 // `neumann merge A B C -o DIR`: renders of one scene by different seeds, or parts of one, become one.
 #pragma once
 
-#include "apps/files/chosen_files.h"
+#include "apps/output/files/chosen_files.h"
 
 #include <string>
 #include <vector>

@@ -1,12 +1,12 @@
 #include "apps/commands/page_command.h"
 
-#include "apps/commands/limits.h"
-#include "apps/files/rendered_folder.h"
-#include "apps/files/series_files.h"
-#include "apps/files/ways_files.h"
-#include "apps/pages/explorer_page.h"
-#include "apps/pages/paths_json.h"
+#include "apps/output/files/rendered_folder.h"
+#include "apps/output/files/series_files.h"
+#include "apps/output/files/ways_files.h"
+#include "apps/output/pages/explorer_page.h"
+#include "apps/output/pages/paths_json.h"
 #include "core/base/error.h"
+#include "core/base/limits.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

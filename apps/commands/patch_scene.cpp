@@ -1,17 +1,17 @@
 #include "apps/commands/patch_scene.h"
 
-#include "apps/commands/checkpoints.h"
-#include "apps/commands/interrupt.h"
-#include "apps/commands/limits.h"
 #include "apps/commands/parse_definitions.h"
 #include "apps/commands/print_warnings.h"
-#include "apps/files/row_files.h"
-#include "apps/files/scene_json.h"
+#include "apps/output/files/checkpoints.h"
+#include "apps/output/files/row_files.h"
+#include "apps/output/files/scene_json.h"
 #include "core/base/error.h"
+#include "core/base/interrupt.h"
+#include "core/base/limits.h"
 #include "core/geometry/ray_caster.h"
 #include "core/reader/read_scene.h"
 #include "core/scene/normal_maps.h"
-#include "operators/shared/shared_system.h"
+#include "operators/fields/shared/shared_system.h"
 
 #include <fmt/format.h>
 #include <bit>

@@ -1,10 +1,10 @@
 // Shared by the commands that treat a scene as matrices: their options, and the construction of space, table, R and channels.
 #pragma once
 
-#include "apps/commands/limits.h"
+#include "core/base/limits.h"
+#include "core/base/processes/processes.h"
 #include "core/base/warnings.h"
-#include "core/processes/processes.h"
-#include "operators/matrix/traced_system.h"
+#include "operators/fields/matrix/traced_system.h"
 
 #include <nlohmann/json.hpp>
 

@@ -2,10 +2,10 @@
 
 #include "apps/commands/parse_definitions.h"
 #include "apps/commands/print_warnings.h"
-#include "apps/files/json_text.h"
-#include "apps/files/plan_json.h"
+#include "apps/output/files/json_text.h"
+#include "apps/output/files/plan_json.h"
 #include "core/reader/read_scene.h"
-#include "operators/methods/method_plan.h"
+#include "operators/render/methods/method_plan.h"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 #include "apps/commands/preview.h"
 
-#include "apps/sheets/strips.h"
+#include "apps/output/sheets/strips.h"
 #include "core/base/error.h"
 #include "core/image/image_io.h"
 

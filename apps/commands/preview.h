@@ -1,8 +1,8 @@
 // preview.png of a render that is on its way: the strip of the terms so far.
 #pragma once
 
-#include "apps/files/output_folder.h"
 #include "apps/live/viewer.h"
+#include "apps/output/files/output_folder.h"
 #include "core/image/image.h"
 
 #include <atomic>

@@ -1,7 +1,7 @@
 #include "apps/commands/print_rendering.h"
 
 #include "apps/commands/print_warnings.h"
-#include "apps/files/ways_files.h"
+#include "apps/output/files/ways_files.h"
 
 #include <fmt/format.h>
 

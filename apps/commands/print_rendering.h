@@ -1,7 +1,7 @@
 // A finished render on the terminal.
 #pragma once
 
-#include "apps/files/rendering_files.h"
+#include "apps/output/rendering_files.h"
 
 #include <string>
 

@@ -1,11 +1,11 @@
 // `neumann render`: a scene in, its bounce pictures out.
 #pragma once
 
-#include "apps/files/rendering_files.h"
 #include "apps/live/viewer.h"
-#include "operators/methods/goal.h"
-#include "operators/methods/method_options.h"
-#include "operators/methods/saving.h"
+#include "apps/output/rendering_files.h"
+#include "operators/render/methods/goal.h"
+#include "operators/render/methods/method_options.h"
+#include "operators/render/methods/saving.h"
 
 #include <limits>
 

@@ -1,11 +1,11 @@
 #include "apps/commands/replay_command.h"
 
-#include "apps/files/health_json.h"
-#include "apps/files/json_text.h"
-#include "apps/files/recorded_run.h"
-#include "apps/files/replay_json.h"
+#include "apps/output/files/health_json.h"
+#include "apps/output/files/json_text.h"
+#include "apps/output/files/recorded_run.h"
+#include "apps/output/files/replay_json.h"
 #include "core/base/error.h"
-#include "operators/pictures/path_group.h"
+#include "operators/paths/walk/path_group.h"
 
 #include <fmt/format.h>
 #include <algorithm>

@@ -1,14 +1,14 @@
 #include "apps/commands/solve_command.h"
 
-#include "apps/commands/interrupt.h"
 #include "apps/commands/print_warnings.h"
 #include "apps/commands/run_by_all.h"
-#include "apps/files/json_number.h"
-#include "apps/files/json_text.h"
+#include "apps/output/files/json_number.h"
+#include "apps/output/files/json_text.h"
 #include "core/base/error.h"
-#include "operators/matrix/traced_system.h"
-#include "operators/petsc/petsc_solver.h"
-#include "operators/shared/shared_solvers.h"
+#include "core/base/interrupt.h"
+#include "operators/fields/matrix/traced_system.h"
+#include "operators/fields/shared/shared_solvers.h"
+#include "operators/solvers/petsc/petsc_solver.h"
 
 #include <fmt/format.h>
 #include <algorithm>

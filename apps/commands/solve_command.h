@@ -2,7 +2,7 @@
 #pragma once
 
 #include "apps/commands/patch_scene.h"
-#include "operators/matrix/channel_choice.h"
+#include "operators/fields/matrix/channel_choice.h"
 #include "operators/solvers/side_by_side.h"
 
 #include <optional>

@@ -1,14 +1,14 @@
 #include "apps/commands/spectrum_command.h"
 
-#include "apps/commands/interrupt.h"
 #include "apps/commands/print_warnings.h"
 #include "apps/commands/progress_line.h"
 #include "apps/commands/run_by_all.h"
 #include "apps/commands/spectrum_print.h"
-#include "apps/files/json_text.h"
+#include "apps/output/files/json_text.h"
+#include "core/base/interrupt.h"
 #include "core/base/stopwatch.h"
-#include "operators/matrix/traced_system.h"
-#include "operators/petsc/petsc.h"
+#include "operators/fields/matrix/traced_system.h"
+#include "operators/solvers/petsc/petsc.h"
 
 #include <fmt/format.h>
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "apps/commands/patch_scene.h"
-#include "operators/matrix/scene_spectrum.h"
+#include "operators/fields/matrix/scene_spectrum.h"
 
 #include <functional>
 #include <optional>

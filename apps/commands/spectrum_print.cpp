@@ -1,7 +1,7 @@
 // The forms in which `neumann spectrum` prints its report: tables of at most 100 columns, CSV, JSON.
 #include "apps/commands/spectrum_print.h"
 
-#include "apps/files/json_number.h"
+#include "apps/output/files/json_number.h"
 
 #include <fmt/format.h>
 #include <algorithm>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "apps/commands/spectrum_command.h"
-#include "operators/matrix/scene_spectrum.h"
+#include "operators/fields/matrix/scene_spectrum.h"
 
 namespace neumann {
 

@@ -1,10 +1,10 @@
 #include "apps/commands/stress_command.h"
 
-#include "apps/commands/interrupt.h"
-#include "apps/commands/limits.h"
-#include "apps/files/json_text.h"
-#include "apps/files/stress_files.h"
+#include "apps/output/files/json_text.h"
+#include "apps/output/files/stress_files.h"
 #include "core/base/error.h"
+#include "core/base/interrupt.h"
+#include "core/base/limits.h"
 #include "core/base/stopwatch.h"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 // `neumann stress`: runs all test cases with known answers.
 #pragma once
 
-#include "operators/known/cases.h"
+#include "operators/experiments/known/cases.h"
 
 #include <cstdint>
 #include <string>
@@ -15,7 +15,7 @@ struct StressRequest {
     bool list = false, json = false;
 };
 
-// All cases: those of operators/known, and those that need files.
+// All cases: those of operators/experiments/known, and those that need files.
 known::Cases stress_cases();
 
 // Prints a table of expected and measured values. Returns the exit code: 1 if a case fails, otherwise 0. Throws InputError if no

@@ -1,19 +1,19 @@
 #include "apps/commands/study_command.h"
 
-#include "apps/commands/interrupt.h"
-#include "apps/commands/limits.h"
 #include "apps/commands/parse_definitions.h"
-#include "apps/commands/study_runs.h"
-#include "apps/files/json_text.h"
-#include "apps/files/output_folder.h"
+#include "apps/output/files/json_text.h"
+#include "apps/output/files/output_folder.h"
+#include "apps/output/study/study_runs.h"
 #include "apps/processes/launch.h"
 #include "core/base/error.h"
+#include "core/base/interrupt.h"
+#include "core/base/limits.h"
 #include "core/base/stopwatch.h"
 #include "core/reader/read_scene.h"
-#include "operators/methods/bounces.h"
-#include "operators/study/methods_for_scene.h"
-#include "operators/study/reference_choice.h"
-#include "operators/study/repeats.h"
+#include "operators/experiments/study/methods_for_scene.h"
+#include "operators/experiments/study/reference_choice.h"
+#include "operators/experiments/study/repeats.h"
+#include "operators/render/methods/bounces.h"
 
 #include <fmt/format.h>
 #include <unistd.h>

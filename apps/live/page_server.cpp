@@ -1,7 +1,7 @@
 #include "apps/live/page_server.h"
 
-#include "apps/files/json_text.h"
-#include "apps/pages/page.h"
+#include "apps/output/files/json_text.h"
+#include "apps/output/pages/page.h"
 #include "core/base/error.h"
 
 #include <fmt/format.h>

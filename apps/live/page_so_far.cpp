@@ -1,6 +1,6 @@
 #include "apps/live/page_so_far.h"
 
-#include "apps/pages/explorer_page.h"
+#include "apps/output/pages/explorer_page.h"
 #include "core/base/error.h"
 
 namespace neumann {

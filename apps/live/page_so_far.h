@@ -1,8 +1,8 @@
 // index.html of a render that is under way, to be looked at and loaded anew.
 #pragma once
 
-#include "apps/files/output_folder.h"
 #include "apps/live/viewer.h"
+#include "apps/output/files/output_folder.h"
 
 namespace neumann {
 

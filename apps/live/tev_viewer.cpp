@@ -1,7 +1,7 @@
 #include "apps/live/tev_viewer.h"
 
-#include "apps/files/series_files.h"
 #include "apps/live/tev_packets.h"
+#include "apps/output/files/series_files.h"
 #include "core/base/error.h"
 
 #include <fmt/format.h>

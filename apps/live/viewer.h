@@ -1,7 +1,7 @@
 // Who looks at a render while it is under way, and how often that may be.
 #pragma once
 
-#include "apps/files/rendering_files.h"
+#include "apps/output/rendering_files.h"
 
 #include <chrono>
 #include <utility>

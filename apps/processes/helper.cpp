@@ -1,15 +1,15 @@
 #include "apps/processes/helper.h"
 
-#include "apps/commands/interrupt.h"
-#include "apps/commands/limits.h"
-#include "apps/files/json_text.h"
+#include "apps/output/files/json_text.h"
 #include "apps/processes/launch.h"
 #include "apps/processes/render_message.h"
 #include "apps/processes/share_message.h"
 #include "apps/processes/together.h"
-#include "operators/methods/method_plan.h"
-#include "operators/pictures/field_rendering.h"
-#include "operators/pictures/share_queue.h"
+#include "core/base/interrupt.h"
+#include "core/base/limits.h"
+#include "operators/render/from_fields/field_rendering.h"
+#include "operators/render/from_paths/share_queue.h"
+#include "operators/render/methods/method_plan.h"
 
 #include <nlohmann/json.hpp>
 

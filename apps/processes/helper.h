@@ -1,7 +1,7 @@
 // A process that helps the first one: it samples shares of renders, as messages ask it to.
 #pragma once
 
-#include "core/processes/processes.h"
+#include "core/base/processes/processes.h"
 
 namespace neumann {
 

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "apps/processes/scene_on_disk.h"
-#include "core/processes/processes.h"
-#include "operators/methods/crew.h"
+#include "core/base/processes/processes.h"
+#include "operators/render/methods/crew.h"
 
 #include <memory>
 

@@ -1,11 +1,11 @@
 #include "apps/processes/process_crew.h"
 
-#include "apps/files/json_text.h"
+#include "apps/output/files/json_text.h"
 #include "apps/processes/render_message.h"
 #include "apps/processes/share_message.h"
 #include "apps/processes/together.h"
 #include "core/base/error.h"
-#include "operators/pictures/field_rendering.h"
+#include "operators/render/from_fields/field_rendering.h"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 #include "apps/processes/render_message.h"
 
-#include "apps/files/method_json.h"
+#include "apps/output/files/method_json.h"
 #include "core/base/error.h"
 
 #include <cstring>

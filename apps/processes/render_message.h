@@ -2,9 +2,9 @@
 #pragma once
 
 #include "apps/processes/scene_on_disk.h"
-#include "operators/methods/recorded_render.h"
-#include "operators/pictures/field_pictures.h"
-#include "operators/pictures/share.h"
+#include "operators/render/from_fields/field_pictures.h"
+#include "operators/render/from_paths/share.h"
+#include "operators/render/methods/recorded_render.h"
 
 #include <glm/glm.hpp>
 #include <nlohmann/json.hpp>

@@ -1,6 +1,6 @@
 #include "apps/processes/scene_on_disk.h"
 
-#include "apps/files/json_text.h"
+#include "apps/output/files/json_text.h"
 #include "core/base/error.h"
 #include "core/reader/read_scene.h"
 

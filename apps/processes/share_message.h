@@ -1,7 +1,7 @@
 // Samples of a share as bytes, for another process of the same program: numbers as they are in memory.
 #pragma once
 
-#include "operators/pictures/share.h"
+#include "operators/render/from_paths/share.h"
 
 #include <cstddef>
 #include <span>

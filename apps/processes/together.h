@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/base/error.h"
-#include "core/processes/processes.h"
+#include "core/base/processes/processes.h"
 
 #include <exception>
 

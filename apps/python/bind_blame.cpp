@@ -1,10 +1,10 @@
 // `neumann blame`, on arrays.
 #include "apps/commands/blame_command.h"
-#include "apps/commands/interrupt.h"
-#include "apps/files/blame_files.h"
-#include "apps/files/json_text.h"
+#include "apps/output/files/blame_files.h"
+#include "apps/output/files/json_text.h"
 #include "apps/python/module.h"
 #include "core/base/error.h"
+#include "core/base/interrupt.h"
 
 #include <fmt/format.h>
 

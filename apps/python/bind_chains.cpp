@@ -1,9 +1,9 @@
 // The walk of a chain as arrays.
-#include "apps/commands/interrupt.h"
 #include "apps/python/arrays.h"
 #include "apps/python/module.h"
 #include "core/base/error.h"
-#include "operators/metropolis/chain_walk.h"
+#include "core/base/interrupt.h"
+#include "operators/paths/metropolis/chain_walk.h"
 
 #include <fmt/format.h>
 

@@ -1,10 +1,10 @@
 // What `spectrum` and `solve` find of a scene on patches.
-#include "apps/commands/interrupt.h"
 #include "apps/commands/solve_command.h"
 #include "apps/commands/spectrum_command.h"
 #include "apps/commands/spectrum_print.h"
-#include "apps/files/json_text.h"
+#include "apps/output/files/json_text.h"
 #include "apps/python/module.h"
+#include "core/base/interrupt.h"
 
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>

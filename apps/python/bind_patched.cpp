@@ -1,12 +1,12 @@
 // One colour channel of a scene on patches: its vectors, T, R and K as products and as matrices, the camera, and its shape.
 #include "apps/commands/export_command.h"
-#include "apps/commands/interrupt.h"
 #include "apps/commands/solve_command.h"
 #include "apps/python/module.h"
 #include "core/base/error.h"
-#include "operators/matrix/camera_vector.h"
-#include "operators/matrix/channel_choice.h"
-#include "operators/matrix/scene_patches.h"
+#include "core/base/interrupt.h"
+#include "operators/fields/matrix/camera_vector.h"
+#include "operators/fields/matrix/channel_choice.h"
+#include "operators/fields/matrix/scene_patches.h"
 
 #include <fmt/format.h>
 #include <pybind11/eigen.h>

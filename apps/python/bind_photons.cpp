@@ -1,9 +1,9 @@
 // Photons as arrays.
-#include "apps/commands/interrupt.h"
 #include "apps/python/arrays.h"
 #include "apps/python/module.h"
 #include "core/base/error.h"
-#include "operators/photons/photon_points.h"
+#include "core/base/interrupt.h"
+#include "operators/paths/photons/photon_points.h"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // Pictures as arrays, as files and for display, and error metrics between two pictures.
-#include "apps/files/rendered_picture.h"
+#include "apps/output/files/rendered_picture.h"
 #include "apps/python/module.h"
 #include "core/image/image_io.h"
 #include "core/image/resize.h"

@@ -2,7 +2,7 @@
 #include "apps/python/arrays.h"
 #include "apps/python/module.h"
 #include "core/base/error.h"
-#include "operators/queries/ray_queries.h"
+#include "operators/experiments/queries/ray_queries.h"
 
 #include <fmt/format.h>
 

@@ -1,12 +1,12 @@
 // The records of an irradiance cache as arrays.
-#include "apps/commands/interrupt.h"
 #include "apps/python/arrays.h"
 #include "apps/python/module.h"
 #include "core/base/error.h"
+#include "core/base/interrupt.h"
 #include "core/base/memory.h"
-#include "operators/cache/record_points.h"
-#include "operators/methods/method_options.h"
-#include "operators/methods/sampling.h"
+#include "operators/paths/cache/record_points.h"
+#include "operators/render/methods/method_options.h"
+#include "operators/render/methods/sampling.h"
 
 #include <fmt/format.h>
 #include <pybind11/stl.h>

@@ -1,17 +1,17 @@
 // Renders, as `neumann render` makes and writes them.
-#include "apps/commands/interrupt.h"
 #include "apps/commands/print_warnings.h"
 #include "apps/commands/progress_line.h"
 #include "apps/commands/render_command.h"
-#include "apps/files/json_text.h"
-#include "apps/files/run_json.h"
-#include "apps/files/series_files.h"
 #include "apps/live/live_page.h"
+#include "apps/output/files/json_text.h"
+#include "apps/output/files/series_files.h"
+#include "apps/output/run_json.h"
 #include "apps/python/module.h"
 #include "core/base/error.h"
+#include "core/base/interrupt.h"
 #include "core/base/stopwatch.h"
-#include "operators/methods/merge.h"
-#include "operators/methods/render.h"
+#include "operators/render/methods/merge.h"
+#include "operators/render/methods/render.h"
 
 #include <fmt/format.h>
 #include <pybind11/stl.h>

@@ -1,12 +1,12 @@
 // Reads scenes and returns information about them.
 #include "apps/command_line/scenes_along.h"
 #include "apps/commands/print_warnings.h"
-#include "apps/files/json_text.h"
-#include "apps/files/plan_json.h"
+#include "apps/output/files/json_text.h"
+#include "apps/output/files/plan_json.h"
 #include "apps/python/module.h"
 #include "core/base/stopwatch.h"
 #include "core/geometry/ray_caster.h"
-#include "operators/methods/method_plan.h"
+#include "operators/render/methods/method_plan.h"
 
 #include <pybind11/stl.h>
 

@@ -1,15 +1,15 @@
 // The series and its solvers on any K: matrices of a scene, of a book, or of the unit cube.
-#include "apps/commands/interrupt.h"
 #include "apps/python/module.h"
 #include "core/base/error.h"
+#include "core/base/interrupt.h"
 #include "core/base/stopwatch.h"
-#include "operators/known/cube.h"
+#include "operators/experiments/known/cube.h"
 #include "operators/solvers/matrix_channel.h"
 #include "operators/solvers/series_run.h"
 #include "operators/solvers/side_by_side.h"
+#include "operators/solvers/spectrum/convergence.h"
+#include "operators/solvers/spectrum/spectrum.h"
 #include "operators/solvers/stoppable.h"
-#include "operators/spectrum/convergence.h"
-#include "operators/spectrum/spectrum.h"
 
 #include <fmt/format.h>
 #include <pybind11/eigen.h>

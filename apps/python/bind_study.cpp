@@ -1,6 +1,6 @@
 // `neumann study`.
-#include "apps/commands/study_data.h"
-#include "apps/files/json_text.h"
+#include "apps/output/files/json_text.h"
+#include "apps/output/study/study_data.h"
 #include "apps/python/module.h"
 #include "core/base/error.h"
 

@@ -1,9 +1,9 @@
 // `neumann unbounce`, on arrays: pictures have the shape (lights, height, width, 3).
-#include "apps/commands/interrupt.h"
-#include "apps/files/json_text.h"
-#include "apps/files/unbounce_files.h"
+#include "apps/output/files/json_text.h"
+#include "apps/output/files/unbounce_files.h"
 #include "apps/python/module.h"
 #include "core/base/error.h"
+#include "core/base/interrupt.h"
 
 #include <fmt/format.h>
 

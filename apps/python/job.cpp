@@ -1,8 +1,8 @@
 #include "apps/python/job.h"
 
-#include "apps/commands/interrupt.h"
-#include "apps/commands/limits.h"
 #include "core/base/error.h"
+#include "core/base/interrupt.h"
+#include "core/base/limits.h"
 
 #include <chrono>
 

@@ -8,7 +8,7 @@
 #include "core/image/pixel_estimate.h"
 #include "core/reader/changed_scene.h"
 #include "core/scene/scene.h"
-#include "operators/queries/camera_rays.h"
+#include "operators/experiments/queries/camera_rays.h"
 #include "operators/statistics/picture_statistics.h"
 
 #include <pybind11/numpy.h>

@@ -1,7 +1,7 @@
 // Prints neumann/_method_options.py: a class for each method with its options, and the keywords of all options, with their types
 // and their help.
-#include "operators/methods/method_options.h"
-#include "operators/methods/method_table.h"
+#include "operators/render/methods/method_options.h"
+#include "operators/render/methods/method_table.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -49,7 +49,7 @@ void print_class(const Method& method) {
 }
 
 void print() {
-    fmt::print(R"("""The options of the methods. Made from operators/methods/method_options.cpp when neumann is built."""
+    fmt::print(R"("""The options of the methods. Made from operators/render/methods/method_options.cpp when neumann is built."""
 
 from dataclasses import dataclass
 from typing import ClassVar, Literal, Optional, Sequence, TypedDict, Union

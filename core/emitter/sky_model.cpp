@@ -1,7 +1,7 @@
 #include "core/emitter/sky_model.h"
 
-#include "core/colour/spectrum_to_rgb.h"
 #include "core/emitter/sky_tables.h"
+#include "core/image/colour/spectrum_to_rgb.h"
 #include "core/sampling/warp.h"
 
 #include <algorithm>

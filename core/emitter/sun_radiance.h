@@ -3,7 +3,7 @@
 // ozone, mixed gases and water vapour.
 #pragma once
 
-#include "core/colour/spectrum_to_rgb.h"
+#include "core/image/colour/spectrum_to_rgb.h"
 
 namespace neumann {
 

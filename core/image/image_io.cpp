@@ -2,7 +2,7 @@
 
 #include "core/base/input_file.h"
 #include "core/base/module.h"
-#include "core/image/module/picture_codec.h"
+#include "core/image/picture_codec.h"
 
 namespace neumann {
 

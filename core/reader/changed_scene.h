@@ -1,9 +1,9 @@
 // Scenes of which there is no file, or that are a file with changes.
 #pragma once
 
-#include "core/reader/raw_scene.h"
 #include "core/reader/read_scene.h"
 #include "core/reader/xml/edit.h"
+#include "core/reader/xml/raw_scene.h"
 
 #include <memory>
 

@@ -1,8 +1,8 @@
 #include "core/reader/convert_scene.h"
 
 #include "core/image/image_io.h"
-#include "core/reader/import/read_raw_scene.h"
 #include "core/reader/meshes/write_ply.h"
+#include "core/reader/read_raw_scene.h"
 #include "core/reader/read_scene.h"
 #include "core/reader/xml/document.h"
 #include "core/reader/xml/grammar.h"

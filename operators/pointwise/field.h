@@ -6,7 +6,7 @@
 #pragma once
 
 #include "core/geometry/surface_point.h"
-#include "operators/series/compensated_sum.h"
+#include "operators/algebra/compensated_sum.h"
 
 #include <functional>
 #include <vector>

@@ -2,7 +2,7 @@
 // the one weighted with the measure.
 #pragma once
 
-#include "operators/solvers/channel_operator.h"
+#include "operators/algebra/channel_operator.h"
 
 #include <Eigen/IterativeLinearSolvers>
 

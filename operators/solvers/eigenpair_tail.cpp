@@ -1,8 +1,8 @@
 #include "operators/solvers/eigenpair_tail.h"
 
+#include "operators/algebra/term_series.h"
 #include "operators/solvers/solver_log.h"
-#include "operators/solvers/term_series.h"
-#include "operators/spectrum/spectrum.h"
+#include "operators/solvers/spectrum/spectrum.h"
 
 #include <fmt/format.h>
 

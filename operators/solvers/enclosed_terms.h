@@ -1,8 +1,8 @@
 // The enclosure of a series by its last terms.
 #pragma once
 
-#include "operators/series/enclosure.h"
-#include "operators/solvers/term_series.h"
+#include "operators/algebra/enclosure.h"
+#include "operators/algebra/term_series.h"
 
 namespace neumann {
 

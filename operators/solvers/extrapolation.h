@@ -1,8 +1,8 @@
 // The common loop of all methods that extrapolate the partial sums of the series.
 #pragma once
 
+#include "operators/algebra/term_series.h"
 #include "operators/solvers/solver.h"
-#include "operators/solvers/term_series.h"
 
 #include <functional>
 #include <optional>

@@ -2,10 +2,10 @@
 //
 // A rate that is seen does not do it: light of a room that is dim and slow is not seen beside that of one that is bright and fast,
 // and where K is not normal, terms fall late. For K ≥ 0 the norm is that of (I − K)⁻¹ 1 = 1 + K 1 + K² 1 + …, a series that is
-// enclosed as all others are (operators/series/enclosure.h): by one product, if ‖K‖∞ < 1, ‖(I − K)⁻¹‖∞ ≤ 1/(1 − ‖K‖∞).
+// enclosed as all others are (operators/algebra/enclosure.h): by one product, if ‖K‖∞ < 1, ‖(I − K)⁻¹‖∞ ≤ 1/(1 − ‖K‖∞).
 #pragma once
 
-#include "operators/solvers/channel_operator.h"
+#include "operators/algebra/channel_operator.h"
 
 #include <limits>
 

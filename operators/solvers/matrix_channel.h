@@ -1,7 +1,7 @@
 // K given as a matrix, dense or sparse: (K x)_u = Σ_v K_uv x_v,  K* = M⁻¹ Kᵀ M with M = diag(measure).
 #pragma once
 
-#include "operators/solvers/channel_operator.h"
+#include "operators/algebra/channel_operator.h"
 
 #include <Eigen/SparseCore>
 

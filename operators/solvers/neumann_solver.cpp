@@ -1,6 +1,6 @@
+#include "operators/algebra/term_series.h"
 #include "operators/solvers/series_solvers.h"
 #include "operators/solvers/solver_log.h"
-#include "operators/solvers/term_series.h"
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 // An operator of the algebra as the solvers' K, and I − K handed to one of them: solve(I - R * T, Le, measure, solve_gmres).
 #pragma once
 
-#include "operators/series/algebra.h"
+#include "operators/algebra/algebra.h"
 #include "operators/solvers/solver.h"
 
 #include <stdexcept>

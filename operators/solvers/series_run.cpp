@@ -1,9 +1,9 @@
 #include "operators/solvers/series_run.h"
 
-#include "operators/series/change_rate.h"
+#include "operators/algebra/change_rate.h"
 #include "operators/solvers/enclosed_terms.h"
 #include "operators/solvers/inverse_bound.h"
-#include "operators/spectrum/radius_evidence.h"
+#include "operators/solvers/spectrum/radius_evidence.h"
 
 #include <fmt/format.h>
 

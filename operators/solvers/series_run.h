@@ -1,9 +1,9 @@
 // Adds the series term by term until its error is small enough, or until it is known to diverge.
 #pragma once
 
-#include "operators/series/enclosure.h"
-#include "operators/series/verdict.h"
-#include "operators/solvers/term_series.h"
+#include "operators/algebra/enclosure.h"
+#include "operators/algebra/term_series.h"
+#include "operators/algebra/verdict.h"
 
 #include <functional>
 #include <optional>

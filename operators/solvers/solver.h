@@ -1,8 +1,8 @@
 // The common interface of the solvers of (I − K) L = Le for one colour channel: problem, options, result and verdict.
 #pragma once
 
-#include "operators/series/verdict.h"
-#include "operators/solvers/channel_operator.h"
+#include "operators/algebra/channel_operator.h"
+#include "operators/algebra/verdict.h"
 
 #include <functional>
 #include <limits>

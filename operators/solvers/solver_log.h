@@ -2,11 +2,11 @@
 #pragma once
 
 #include "core/base/stopwatch.h"
-#include "operators/series/change_rate.h"
+#include "operators/algebra/change_rate.h"
+#include "operators/algebra/term_series.h"
 #include "operators/solvers/inverse_bound.h"
 #include "operators/solvers/solver.h"
-#include "operators/solvers/term_series.h"
-#include "operators/spectrum/radius_evidence.h"
+#include "operators/solvers/spectrum/radius_evidence.h"
 
 namespace neumann {
 
@@ -41,7 +41,7 @@ public:
     // ‖x − L‖∞ after a change of the size `change`, of which K makes the residual, and `more` times it is left beside: the last
     // term of a series, or what a sweep of relaxation changed. Bounded by the amplification, or else estimated from the rate.
     double tail(double change, const ChangeRate& rate, double more = 0.0);
-    // The same of a series, which may be enclosed as well (operators/series/enclosure.h). `before_last`: the term before
+    // The same of a series, which may be enclosed as well (operators/algebra/enclosure.h). `before_last`: the term before
     // series.before(); `sum`: series.sum().
     double tail(const TermSeries& series, const Vector& before_last, const Vector& sum, const ChangeRate& rate);
     // How that was found, in words.

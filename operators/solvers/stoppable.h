@@ -1,7 +1,7 @@
 // A K that can interrupt a solver: before every use it asks a Watch whether to stop.
 #pragma once
 
-#include "operators/solvers/channel_operator.h"
+#include "operators/algebra/channel_operator.h"
 #include "operators/watch.h"
 
 #include <memory>

@@ -1,4 +1,4 @@
-#include "operators/methods/method_options.h"
+#include "operators/render/methods/method_options.h"
 #include "tests/agreement/reference.h"
 #include "tests/physics/seed.h"
 

@@ -1,7 +1,7 @@
 // Small renders of a scene by every method that makes all paths, but for `pointwise`, which finds lights by chance.
 #pragma once
 
-#include "operators/methods/render.h"
+#include "operators/render/methods/render.h"
 
 #include <string>
 #include <vector>

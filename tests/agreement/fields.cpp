@@ -1,4 +1,4 @@
-#include "operators/pictures/field_rendering.h"
+#include "operators/render/from_fields/field_rendering.h"
 
 #include "operators/statistics/student_t.h"
 #include "tests/agreement/reference.h"

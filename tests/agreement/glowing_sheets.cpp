@@ -1,7 +1,7 @@
 // How light is carried through or off a surface does not depend on whether the surface glows: a white plate under a sheet, lit
 // through it or by way of it, by every method.
 #include "core/base/error.h"
-#include "operators/known/scene_maker.h"
+#include "operators/experiments/known/scene_maker.h"
 #include "tests/agreement/every_method.h"
 #include "tests/physics/seed.h"
 

@@ -2,7 +2,7 @@
 // are clusters, and instances.
 #include "core/base/error.h"
 #include "core/geometry/mesh_instance.h"
-#include "operators/known/scene_maker.h"
+#include "operators/experiments/known/scene_maker.h"
 #include "operators/statistics/student_t.h"
 #include "tests/agreement/every_method.h"
 #include "tests/physics/seed.h"

@@ -1,6 +1,6 @@
 #include "core/image/pixel_estimate.h"
-#include "operators/methods/method_options.h"
-#include "operators/pictures/least_errors.h"
+#include "operators/render/methods/method_options.h"
+#include "operators/render/report/least_errors.h"
 #include "operators/statistics/student_t.h"
 #include "tests/agreement/reference.h"
 #include "tests/physics/seed.h"

@@ -1,5 +1,5 @@
-#include "operators/methods/method_options.h"
-#include "operators/mixture/mixture.h"
+#include "operators/render/from_paths/mixture.h"
+#include "operators/render/methods/method_options.h"
 #include "tests/agreement/reference.h"
 #include "tests/physics/seed.h"
 

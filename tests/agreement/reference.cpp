@@ -1,7 +1,7 @@
 #include "tests/agreement/reference.h"
 
 #include "core/reader/read_scene.h"
-#include "operators/methods/method_options.h"
+#include "operators/render/methods/method_options.h"
 #include "operators/statistics/student_t.h"
 #include "tests/physics/seed.h"
 

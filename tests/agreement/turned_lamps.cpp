@@ -3,7 +3,7 @@
 #include "core/base/frame.h"
 #include "core/sampling/sampler.h"
 #include "core/sampling/warp.h"
-#include "operators/known/scene_maker.h"
+#include "operators/experiments/known/scene_maker.h"
 #include "tests/agreement/every_method.h"
 #include "tests/physics/seed.h"
 

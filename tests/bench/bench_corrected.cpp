@@ -5,7 +5,7 @@
 //
 // With a required ratio after the seconds it ends with 1 if the walk needs less than that many times as long for 1e-2.
 #include "core/reader/read_scene.h"
-#include "operators/methods/render.h"
+#include "operators/render/methods/render.h"
 
 #include <fmt/format.h>
 #include <sys/resource.h>

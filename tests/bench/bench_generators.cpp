@@ -4,8 +4,8 @@
 //
 //     bench_generators [SCENE.xml [RESOLUTION [SECONDS]]]
 #include "core/reader/read_scene.h"
-#include "operators/guide/guide.h"
-#include "operators/pictures/rendered_series.h"
+#include "operators/paths/guided/guide.h"
+#include "operators/render/from_paths/rendered_series.h"
 
 #include <fmt/format.h>
 #include <algorithm>

@@ -9,8 +9,8 @@
 //     bench_plain [REPETITIONS [THREADS]]
 #include "core/base/stopwatch.h"
 #include "core/reader/read_scene.h"
-#include "operators/methods/render.h"
-#include "operators/pictures/picture_sampler.h"
+#include "operators/render/from_paths/picture_sampler.h"
+#include "operators/render/methods/render.h"
 #include "plain_tracer.h"
 
 #include <fmt/format.h>

@@ -4,8 +4,8 @@
 //
 //     bench_plan [REPETITIONS]
 #include "core/reader/read_scene.h"
-#include "operators/pictures/picture_sampler.h"
-#include "operators/plan/plan.h"
+#include "operators/render/from_paths/picture_sampler.h"
+#include "operators/render/plan/plan.h"
 
 #include <fmt/format.h>
 #include <oneapi/tbb/global_control.h>

@@ -1,10 +1,10 @@
-// What it brings to use the tails of other walks (operators/reuse/reusing_walk.h), by the number of pixels in a row that do:
+// What it brings to use the tails of other walks (operators/paths/reuse/reusing_walk.h), by the number of pixels in a row that do:
 // efficiency, 1 / (squared error of a pixel × cost), of bounces 2 … 5 and of the sum, beside that of walks which share nothing,
 // with costs in rays and in processor time.
 //
 //     bench_reuse [RESOLUTION [SAMPLES]] [SCENE.xml …]
 #include "core/reader/read_scene.h"
-#include "operators/pictures/picture_sampler.h"
+#include "operators/render/from_paths/picture_sampler.h"
 #include "tests/bench/bench_arguments.h"
 
 #include <fmt/format.h>

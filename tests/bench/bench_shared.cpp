@@ -9,9 +9,9 @@
 #include "core/base/module.h"
 #include "core/base/stopwatch.h"
 #include "core/reader/read_scene.h"
-#include "operators/petsc/petsc_solver.h"
-#include "operators/shared/shared_system.h"
-#include "operators/solvers/term_series.h"
+#include "operators/algebra/term_series.h"
+#include "operators/fields/shared/shared_system.h"
+#include "operators/solvers/petsc/petsc_solver.h"
 
 #include <fmt/format.h>
 #include <oneapi/tbb/global_control.h>

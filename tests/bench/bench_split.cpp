@@ -4,8 +4,8 @@
 //
 //     bench_split [RESOLUTION [SAMPLES]] [SCENE.xml …]
 #include "core/reader/read_scene.h"
-#include "operators/pictures/picture_sampler.h"
-#include "operators/splitting/tree_pilot.h"
+#include "operators/paths/walk/tree_pilot.h"
+#include "operators/render/from_paths/picture_sampler.h"
 #include "tests/bench/bench_arguments.h"
 
 #include <fmt/format.h>

@@ -3,8 +3,8 @@
 // random numbers alone, the moments alone; what is left is shading.
 #include "bench_scenes.h"
 #include "core/geometry/ray_caster.h"
-#include "operators/pictures/picture_sampler.h"
-#include "operators/walk/walk.h"
+#include "operators/paths/walk/walk.h"
+#include "operators/render/from_paths/picture_sampler.h"
 #include "recorded_rays.h"
 
 #include <benchmark/benchmark.h>

@@ -1,6 +1,6 @@
 // What shifts and filters make of pictures, and of their noise.
-#include "operators/blame/likelihood.h"
-#include "operators/blame/picture_mistakes.h"
+#include "operators/experiments/blame/likelihood.h"
+#include "operators/experiments/blame/picture_mistakes.h"
 
 #include <gtest/gtest.h>
 

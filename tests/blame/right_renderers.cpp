@@ -1,5 +1,5 @@
 // blame accuses no right renderer, however it samples.
-#include "operators/blame/blame.h"
+#include "operators/experiments/blame/blame.h"
 #include "tests/blame/wrong_tracer.h"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 // Bidirectional path tracers that lack a technique.
-#include "operators/blame/blame.h"
-#include "operators/blame/technique_mistakes.h"
-#include "operators/methods/render.h"
+#include "operators/experiments/blame/blame.h"
+#include "operators/experiments/blame/technique_mistakes.h"
+#include "operators/render/methods/render.h"
 #include "tests/blame/wrong_tracer.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // blame, on the pictures of a renderer that makes one mistake, and of one that makes none.
-#include "operators/blame/blame.h"
+#include "operators/experiments/blame/blame.h"
 #include "tests/blame/wrong_tracer.h"
 
 #include "core/base/error.h"

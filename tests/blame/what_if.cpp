@@ -1,8 +1,8 @@
 // Paths that carry mistakes along: without one they are the walk's, whatever the materials.
-#include "operators/blame/path_mistakes.h"
+#include "operators/experiments/blame/path_mistakes.h"
 
-#include "operators/known/scene_maker.h"
-#include "operators/methods/render.h"
+#include "operators/experiments/known/scene_maker.h"
+#include "operators/render/methods/render.h"
 
 #include <gtest/gtest.h>
 

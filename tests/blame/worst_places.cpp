@@ -1,7 +1,7 @@
 // The places that blame shows, and the paths of ours through them.
-#include "operators/blame/worst_places.h"
+#include "operators/experiments/blame/worst_places.h"
 
-#include "operators/methods/render.h"
+#include "operators/render/methods/render.h"
 #include "tests/blame/wrong_tracer.h"
 
 #include <gtest/gtest.h>

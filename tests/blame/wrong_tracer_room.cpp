@@ -1,5 +1,5 @@
 // The room that the wrong tracer renders.
-#include "operators/known/scene_maker.h"
+#include "operators/experiments/known/scene_maker.h"
 #include "tests/blame/wrong_tracer.h"
 
 #include <glm/gtc/matrix_transform.hpp>

@@ -1,7 +1,7 @@
 // The wrong tracer is right without a mistake, and each mistake spoils the bounce that it is said to spoil first, and none before.
 #include "tests/blame/wrong_tracer.h"
 
-#include "operators/methods/render.h"
+#include "operators/render/methods/render.h"
 #include "tests/physics/seed.h"
 
 #include <gtest/gtest.h>

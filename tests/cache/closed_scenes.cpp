@@ -2,9 +2,9 @@
 // right on average and all that is left is noise. And what is the same whatever the machine does: the bits.
 #include "core/base/error.h"
 #include "core/reader/read_scene.h"
-#include "operators/cache/record_places.h"
-#include "operators/known/enclosures.h"
-#include "operators/methods/method_options.h"
+#include "operators/experiments/known/enclosures.h"
+#include "operators/paths/cache/record_places.h"
+#include "operators/render/methods/method_options.h"
 #include "tests/physics/picture_blocks.h"
 #include "tests/physics/seed.h"
 
@@ -53,7 +53,7 @@ TEST(CacheClosedScenesSlow, Furnace) {
 }
 
 // A sphere closed by a disc that shines, two surfaces with K = [0, ρd; ρs (1 − f), ρs f], f = 3/4
-// (operators/known/two_patches.cpp): 16 blocks at most, bounces 2 … 4, one channel of three that are alike. 48 comparisons at |z|
+// (operators/experiments/known/two_patches.cpp): 16 blocks at most, bounces 2 … 4, one channel of three that are alike. 48 comparisons at |z|
 // ≤ 4.5, a false alarm in 3000 runs.
 TEST(CacheClosedScenesSlow, SphereClosedByADisc) {
     const Scene scene = read_scene(SCENES "/sphere-segment/sphere-segment.xml", {{"res", "32"}});

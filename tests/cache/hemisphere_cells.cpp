@@ -1,5 +1,5 @@
 // The derivatives of irradiance by the cells of a hemisphere, beside finite differences of the exact irradiance of a rectangle.
-#include "operators/cache/hemisphere_cells.h"
+#include "operators/paths/cache/hemisphere_cells.h"
 
 #include "core/base/frame.h"
 #include "core/sampling/warp.h"

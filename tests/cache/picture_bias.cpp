@@ -1,5 +1,5 @@
 // The bias that pictures of a cache state: three times the root mean square of the differences nearby.
-#include "operators/pictures/picture_bias.h"
+#include "operators/render/report/picture_bias.h"
 
 #include <gtest/gtest.h>
 

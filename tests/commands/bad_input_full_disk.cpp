@@ -1,7 +1,7 @@
 // A disk that is full: seen before sampling where that can be, and otherwise said, exit code 1, an earlier set of pictures
 // untouched, no parts of files, and what was sampled kept elsewhere.
 #include "apps/commands/render_command.h"
-#include "apps/files/output_folder.h"
+#include "apps/output/files/output_folder.h"
 #include "core/base/error.h"
 #include "core/reader/read_scene.h"
 #include "tests/commands/render_output.h"

@@ -1,6 +1,6 @@
 // `neumann compare`: tables, JSON, and what cannot be compared.
 #include "apps/commands/compare_command.h"
-#include "apps/files/rendered_picture.h"
+#include "apps/output/files/rendered_picture.h"
 #include "core/base/error.h"
 #include "core/image/image_io.h"
 #include "operators/statistics/flip.h"

@@ -1,5 +1,5 @@
 // What `compare` says of the means of two renders rests on the errors in their files, which are those of series.csv.
-#include "apps/files/rendered_picture.h"
+#include "apps/output/files/rendered_picture.h"
 #include "operators/statistics/student_t.h"
 #include "tests/commands/render_output.h"
 

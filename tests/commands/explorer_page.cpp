@@ -1,6 +1,6 @@
 // index.html of a render and of two: what is packed into it, how large it is, and what is refused. That a browser shows it is
 // tested in tests/browser.
-#include "apps/pages/explorer_page.h"
+#include "apps/output/pages/explorer_page.h"
 #include "tests/commands/render_output.h"
 
 #include <zlib.h>

@@ -1,6 +1,6 @@
 // `neumann export`: what is read back are the matrices of the library.
 #include "core/reader/read_scene.h"
-#include "operators/matrix/traced_system.h"
+#include "operators/fields/matrix/traced_system.h"
 #include "tests/commands/render_output.h"
 
 namespace neumann::export_command_test {

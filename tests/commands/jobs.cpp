@@ -1,5 +1,5 @@
 // Work that is done in parallel: all of it is done, and of several failures the same one is told each time.
-#include "apps/files/jobs.h"
+#include "apps/output/files/jobs.h"
 
 #include <gtest/gtest.h>
 #include <algorithm>

@@ -1,7 +1,7 @@
 // Rows of T that are kept in a folder: taken from there to the same bits, wherever the process that traced them died.
-#include "apps/files/row_files.h"
+#include "apps/output/files/row_files.h"
 #include "core/reader/read_scene.h"
-#include "operators/matrix/traced_system.h"
+#include "operators/fields/matrix/traced_system.h"
 #include "tests/commands/render_output.h"
 
 #include <numeric>

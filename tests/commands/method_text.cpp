@@ -1,7 +1,7 @@
 // A method, its text and its JSON say the same, whatever its options.
-#include "apps/files/method_json.h"
+#include "apps/output/files/method_json.h"
 #include "core/base/error.h"
-#include "operators/methods/method_options.h"
+#include "operators/render/methods/method_options.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Which channels of other renderers' files are the picture.
-#include "apps/files/other_picture.h"
+#include "apps/output/files/other_picture.h"
 
 #include "core/base/error.h"
 #include "core/image/image_io.h"

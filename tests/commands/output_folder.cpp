@@ -1,5 +1,5 @@
 // Files of a run appear whole or not at all.
-#include "apps/files/output_folder.h"
+#include "apps/output/files/output_folder.h"
 
 #include "core/base/error.h"
 

@@ -1,8 +1,8 @@
 // The contact sheet, the flip-book and the strips: what is on them, and what fits where.
-#include "apps/sheets/contact_sheet.h"
-#include "apps/sheets/flip_book.h"
-#include "apps/sheets/strip_svg.h"
-#include "apps/sheets/strips.h"
+#include "apps/output/sheets/contact_sheet.h"
+#include "apps/output/sheets/flip_book.h"
+#include "apps/output/sheets/strip_svg.h"
+#include "apps/output/sheets/strips.h"
 #include "core/image/image_io.h"
 
 #include <fmt/format.h>

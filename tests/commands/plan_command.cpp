@@ -1,5 +1,5 @@
 // `neumann plan`, and --plan of `render`.
-#include "apps/files/rendered_picture.h"
+#include "apps/output/files/rendered_picture.h"
 #include "tests/commands/render_output.h"
 
 namespace neumann::plan_command_test {

@@ -1,5 +1,5 @@
 // --files: what of a render is written.
-#include "apps/files/series_files.h"
+#include "apps/output/files/series_files.h"
 #include "core/sensor/sensor_options.h"
 #include "tests/commands/render_output.h"
 

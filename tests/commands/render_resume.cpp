@@ -1,5 +1,5 @@
 // Renders that are cut off and gone on with: nothing is lost but the last moments, and the pictures are those of one that was not.
-#include "apps/commands/checkpoints.h"
+#include "apps/output/files/checkpoints.h"
 #include "tests/commands/resumed_renders.h"
 
 #include <sys/stat.h>

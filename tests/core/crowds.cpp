@@ -3,7 +3,7 @@
 #include "core/emitter/emission_sampler.h"
 #include "core/emitter/light_sampler.h"
 #include "core/scene/coincident_surfaces.h"
-#include "operators/known/scene_maker.h"
+#include "operators/experiments/known/scene_maker.h"
 
 #include <gtest/gtest.h>
 #include <cmath>

@@ -1,6 +1,6 @@
+#include "core/image/bitmap.h"
 #include "core/image/display.h"
-#include "core/texture/bitmap.h"
-#include "core/texture/uv_transform.h"
+#include "core/image/uv_transform.h"
 
 #include <gtest/gtest.h>
 

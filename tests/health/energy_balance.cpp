@@ -1,8 +1,8 @@
 // The balance of energy is kept by what is right, and tells what is wrong.
 #include "core/reader/read_scene.h"
-#include "operators/pictures/checkup.h"
-#include "operators/pictures/watched_paths.h"
-#include "operators/walk/walk.h"
+#include "operators/paths/walk/walk.h"
+#include "operators/render/report/checkup.h"
+#include "operators/render/report/watched_paths.h"
 #include "tests/physics/picture_blocks.h"
 #include "tests/physics/scene_maker.h"
 #include "tests/physics/seed.h"

@@ -1,11 +1,11 @@
 // How a pixel's mean came about: after each number of replicates the means and errors of the pixel are, bit for bit, those of a
 // picture of as many.
-#include "operators/pictures/pixel_history.h"
+#include "operators/render/report/pixel_history.h"
 
 #include "core/reader/read_scene.h"
-#include "operators/correction/approximation.h"
-#include "operators/guide/guide.h"
-#include "operators/photons/photon_pilot.h"
+#include "operators/paths/corrected/approximation.h"
+#include "operators/paths/guided/guide.h"
+#include "operators/paths/photons/photon_pilot.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // What a firefly's path says may help against it: a lamp that is found by chance behind glass is found from its own end,
 // where the path has a place to be joined; one that could have been asked for is to be asked for.
-#include "operators/pictures/remedy.h"
-#include "operators/pictures/replay.h"
+#include "operators/render/report/remedy.h"
+#include "operators/render/report/replay.h"
 #include "tests/physics/scene_maker.h"
 
 #include <gtest/gtest.h>

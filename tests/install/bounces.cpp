@@ -1,9 +1,9 @@
 // L = Le + K L with the operators as functions: in a furnace of albedo a, bounce i is a^i wherever one looks.
 #include "core/reader/read_scene.h"
+#include "operators/algebra/neumann_series.h"
 #include "operators/pointwise/emission.h"
 #include "operators/pointwise/reflection.h"
 #include "operators/pointwise/transport.h"
-#include "operators/series/neumann_series.h"
 
 #include <cmath>
 #include <cstdio>

@@ -1,6 +1,6 @@
 // The pictures of all bounces with their errors: in a furnace of albedo a, that of bounce i is a^i in every pixel.
 #include "core/reader/read_scene.h"
-#include "operators/methods/render.h"
+#include "operators/render/methods/render.h"
 
 #include <cmath>
 #include <cstdio>

@@ -1,14 +1,14 @@
 // The algebra on patches: what its types allow, adjoints and entries of whole expressions, and I − R T handed to every solver.
-#include "operators/known/enclosures.h"
-#include "operators/matrix/inner_product.h"
-#include "operators/matrix/light_vector.h"
-#include "operators/matrix/scene_patches.h"
-#include "operators/matrix/traced_channel.h"
-#include "operators/series/neumann_series.h"
+#include "operators/algebra/neumann_series.h"
+#include "operators/experiments/known/enclosures.h"
+#include "operators/fields/matrix/inner_product.h"
+#include "operators/fields/matrix/light_vector.h"
+#include "operators/fields/matrix/scene_patches.h"
+#include "operators/fields/matrix/traced_channel.h"
 #include "operators/solvers/lu.h"
 #include "operators/solvers/matrix_channel.h"
 #include "operators/solvers/side_by_side.h"
-#include "operators/spectrum/spectrum.h"
+#include "operators/solvers/spectrum/spectrum.h"
 
 #include <gtest/gtest.h>
 #include <set>

@@ -1,11 +1,11 @@
 // Surfaces that are not diffuse: R between cells of directions.
 #include "core/sampling/sampler.h"
-#include "operators/known/enclosures.h"
-#include "operators/matrix/inner_product.h"
-#include "operators/matrix/light_vector.h"
-#include "operators/matrix/sides.h"
-#include "operators/matrix/transport_matrix.h"
-#include "operators/series/neumann_series.h"
+#include "operators/algebra/neumann_series.h"
+#include "operators/experiments/known/enclosures.h"
+#include "operators/fields/matrix/inner_product.h"
+#include "operators/fields/matrix/light_vector.h"
+#include "operators/fields/matrix/sides.h"
+#include "operators/fields/matrix/transport_matrix.h"
 #include "tests/matrix/one_matrix.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // Renders from fields that are kept at any moment and gone on with: the pictures are those of a render that was not cut.
 #include "core/reader/read_scene.h"
-#include "operators/pictures/field_rendering.h"
+#include "operators/render/from_fields/field_rendering.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Light in narrow gaps, where it goes to and fro: how fast it leaks out, which decides the deep bounces.
 #include "core/sampling/sampler.h"
-#include "operators/matrix/traced_system.h"
+#include "operators/fields/matrix/traced_system.h"
 #include "tests/physics/scene_maker.h"
 
 #include <gtest/gtest.h>

@@ -2,11 +2,11 @@
 // no error of their own and what is left is the rays' noise: z-tests over 64 seeds as in tests/physics/probe.h, |z| ≤ 4.5, each a
 // false alarm in 3e-5 of all new seeds; about 60 of them here. A matrix that is applied i times is the same each time, which biases
 // K^i by about one part in rays · patches, below a tenth of the standard errors here.
-#include "operators/matrix/light_vector.h"
-#include "operators/matrix/reflection_matrix.h"
-#include "operators/matrix/sides.h"
-#include "operators/matrix/transport_matrix.h"
-#include "operators/series/neumann_series.h"
+#include "operators/algebra/neumann_series.h"
+#include "operators/fields/matrix/light_vector.h"
+#include "operators/fields/matrix/reflection_matrix.h"
+#include "operators/fields/matrix/sides.h"
+#include "operators/fields/matrix/transport_matrix.h"
 #include "tests/physics/scene_maker.h"
 
 #include <gtest/gtest.h>

@@ -1,17 +1,17 @@
 // Rays that go on from mirrors, glass and rough metal: as parts of T, as light from the lamps, and in pictures.
-#include "operators/matrix/link_light.h"
+#include "operators/fields/matrix/link_light.h"
 
 #include "core/base/error.h"
 #include "core/emitter/sun_radiance.h"
 #include "core/sampling/sampler.h"
-#include "operators/known/scene_maker.h"
-#include "operators/matrix/light_vector.h"
-#include "operators/matrix/scene_patches.h"
-#include "operators/matrix/transport_matrix.h"
-#include "operators/methods/render.h"
-#include "operators/pictures/field_rendering.h"
-#include "operators/pictures/link_raster.h"
-#include "operators/pictures/rendered_series.h"
+#include "operators/experiments/known/scene_maker.h"
+#include "operators/fields/matrix/light_vector.h"
+#include "operators/fields/matrix/scene_patches.h"
+#include "operators/fields/matrix/transport_matrix.h"
+#include "operators/render/from_fields/field_rendering.h"
+#include "operators/render/from_fields/link_raster.h"
+#include "operators/render/from_paths/rendered_series.h"
+#include "operators/render/methods/render.h"
 
 #include <gtest/gtest.h>
 

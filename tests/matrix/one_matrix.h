@@ -2,8 +2,8 @@
 // adjoint.
 #pragma once
 
-#include "operators/matrix/traced_system.h"
-#include "operators/spectrum/closure.h"
+#include "operators/fields/matrix/traced_system.h"
+#include "operators/solvers/spectrum/closure.h"
 
 #include <gtest/gtest.h>
 

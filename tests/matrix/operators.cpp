@@ -1,11 +1,11 @@
 // What holds by construction, to rounding: rows of T, the furnace, norms, adjoints, and L = Le + K L.
 #include "core/sampling/sampler.h"
-#include "operators/known/enclosures.h"
-#include "operators/matrix/inner_product.h"
-#include "operators/matrix/light_vector.h"
-#include "operators/matrix/sides.h"
-#include "operators/matrix/transport_matrix.h"
-#include "operators/series/neumann_series.h"
+#include "operators/algebra/neumann_series.h"
+#include "operators/experiments/known/enclosures.h"
+#include "operators/fields/matrix/inner_product.h"
+#include "operators/fields/matrix/light_vector.h"
+#include "operators/fields/matrix/sides.h"
+#include "operators/fields/matrix/transport_matrix.h"
 
 #include <gtest/gtest.h>
 #include <oneapi/tbb/global_control.h>

@@ -1,9 +1,9 @@
 // Patches cover the surfaces, each point is on the patch that was cut around it, and interpolation is linear.
-#include "operators/patches/patch_space.h"
+#include "operators/fields/patches/patch_space.h"
 
 #include "core/base/error.h"
 #include "core/sampling/sampler.h"
-#include "operators/known/enclosures.h"
+#include "operators/experiments/known/enclosures.h"
 
 #include <gtest/gtest.h>
 #include <algorithm>

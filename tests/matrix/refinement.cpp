@@ -1,10 +1,10 @@
 // How the error of a traced matrix falls: with the patches as that of exact form factors does, with the rays at least as fast as
 // that of independent ones.
-#include "operators/matrix/light_vector.h"
-#include "operators/matrix/reflection_matrix.h"
-#include "operators/matrix/sides.h"
-#include "operators/matrix/transport_matrix.h"
-#include "operators/series/neumann_series.h"
+#include "operators/algebra/neumann_series.h"
+#include "operators/fields/matrix/light_vector.h"
+#include "operators/fields/matrix/reflection_matrix.h"
+#include "operators/fields/matrix/sides.h"
+#include "operators/fields/matrix/transport_matrix.h"
 #include "tests/physics/scene_maker.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // Materials that patches do not hold are refused by name and place.
-#include "operators/matrix/sides.h"
+#include "operators/fields/matrix/sides.h"
 #include "tests/physics/scene_maker.h"
 
 #include "core/base/error.h"

@@ -1,5 +1,5 @@
 // The rest of a series, closed with few applications, against sums known exactly.
-#include "operators/matrix/series_rest.h"
+#include "operators/fields/matrix/series_rest.h"
 
 #include <gtest/gtest.h>
 #include <Eigen/LU>

@@ -1,12 +1,12 @@
 // A scene as matrices for the commands: channels, b, coarser spectra, and what they say of the series.
-#include "operators/matrix/traced_system.h"
+#include "operators/fields/matrix/traced_system.h"
 
 #include "core/base/error.h"
-#include "operators/matrix/channel_choice.h"
-#include "operators/matrix/refinement.h"
-#include "operators/spectrum/convergence.h"
-#include "operators/spectrum/remaining.h"
-#include "operators/spectrum/spectrum.h"
+#include "operators/fields/matrix/channel_choice.h"
+#include "operators/fields/matrix/refinement.h"
+#include "operators/solvers/remaining.h"
+#include "operators/solvers/spectrum/convergence.h"
+#include "operators/solvers/spectrum/spectrum.h"
 #include "tests/physics/scene_maker.h"
 #include "tests/physics/seed.h"
 

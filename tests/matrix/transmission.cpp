@@ -1,9 +1,9 @@
 // Glass and other things that light goes through: R between both sides of a patch, and basic radiance.
 #include "core/material/diffuse_fresnel.h"
-#include "operators/matrix/inner_product.h"
-#include "operators/matrix/reflection_matrix.h"
-#include "operators/matrix/scene_patches.h"
-#include "operators/matrix/transport_matrix.h"
+#include "operators/fields/matrix/inner_product.h"
+#include "operators/fields/matrix/reflection_matrix.h"
+#include "operators/fields/matrix/scene_patches.h"
+#include "operators/fields/matrix/transport_matrix.h"
 #include "tests/matrix/one_matrix.h"
 #include "tests/physics/scene_maker.h"
 

@@ -1,10 +1,10 @@
 // What chains are made of: numbers that mutate, starts that are drawn in proportion, and figures of how chains mix, each beside a
 // closed form.
 #include "core/sampling/sampler.h"
-#include "operators/metropolis/chain_starts.h"
-#include "operators/metropolis/chain_statistics.h"
-#include "operators/metropolis/primary_numbers.h"
-#include "operators/pictures/metropolis_sampler.h"
+#include "operators/paths/metropolis/chain_starts.h"
+#include "operators/paths/metropolis/chain_statistics.h"
+#include "operators/paths/metropolis/primary_numbers.h"
+#include "operators/render/from_paths/metropolis_sampler.h"
 #include "tests/physics/seed.h"
 
 #include <gtest/gtest.h>

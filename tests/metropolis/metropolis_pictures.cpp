@@ -1,10 +1,10 @@
 // Pictures by chains beside those of walks and closed forms, bounce by bounce, and what chains share with the independent paths
 // from which they start.
 #include "core/reader/read_scene.h"
-#include "operators/methods/method_options.h"
-#include "operators/methods/sampling.h"
-#include "operators/metropolis/chain_batch.h"
-#include "operators/pictures/picture_sampler.h"
+#include "operators/paths/metropolis/chain_batch.h"
+#include "operators/render/from_paths/picture_sampler.h"
+#include "operators/render/methods/method_options.h"
+#include "operators/render/methods/sampling.h"
 #include "tests/physics/picture_blocks.h"
 #include "tests/physics/seed.h"
 

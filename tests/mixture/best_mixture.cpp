@@ -1,5 +1,5 @@
 // The best mixture of methods beside closed forms, and beside all others nearby.
-#include "operators/mixture/best_mixture.h"
+#include "operators/render/from_paths/best_mixture.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // Pictures of mixtures beside those of single methods, bounce by bounce.
 #include "core/reader/read_scene.h"
-#include "operators/methods/method_options.h"
-#include "operators/mixture/mixture.h"
-#include "operators/pictures/replay.h"
+#include "operators/render/from_paths/mixture.h"
+#include "operators/render/methods/method_options.h"
+#include "operators/render/report/replay.h"
 #include "operators/statistics/student_t.h"
 #include "tests/physics/picture_blocks.h"
 #include "tests/physics/seed.h"

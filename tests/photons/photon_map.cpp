@@ -1,6 +1,6 @@
 // The photon map finds what a loop over all photons finds, its kernel has the integral 1, and radii shrink as they should.
-#include "operators/photons/photon_map.h"
-#include "operators/photons/photon_settings.h"
+#include "operators/paths/photons/photon_map.h"
+#include "operators/paths/photons/photon_settings.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // The bias and the variance of pictures by photon maps fall with the number of passes as theory has it.
 #include "core/reader/read_scene.h"
-#include "operators/methods/method_options.h"
+#include "operators/render/methods/method_options.h"
 #include "tests/physics/picture_blocks.h"
 #include "tests/physics/seed.h"
 

@@ -3,7 +3,7 @@
 #include "core/geometry/giants.h"
 #include "core/sampling/sampler.h"
 #include "core/sampling/warp.h"
-#include "operators/known/scene_maker.h"
+#include "operators/experiments/known/scene_maker.h"
 #include "tests/physics/close_places.h"
 
 #include <gtest/gtest.h>

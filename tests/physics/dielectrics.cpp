@@ -1,6 +1,6 @@
 // Smooth boundaries that let light through: Fresnel's and Snell's laws. The terms of slabs, panes and glass spheres are in
-// operators/known/glass.cpp, rough boundaries in rough_dielectrics.cpp, holes in masks.cpp.
-#include "operators/known/quadrature.h"
+// operators/experiments/known/glass.cpp, rough boundaries in rough_dielectrics.cpp, holes in masks.cpp.
+#include "operators/experiments/known/quadrature.h"
 #include "tests/physics/probe.h"
 #include "tests/physics/scene_maker.h"
 

@@ -1,8 +1,8 @@
-// Walks at diffuse surfaces are reflected eight at a time (operators/walk/diffuse_packet.h). Every sample must have the bits that
+// Walks at diffuse surfaces are reflected eight at a time (operators/paths/walk/diffuse_packet.h). Every sample must have the bits that
 // it has where each walk is reflected by itself.
 #define NEUMANN_SMALL
 #include "core/sampling/sampler.h"
-#include "operators/walk/walk.h"
+#include "operators/paths/walk/walk.h"
 #include "tests/physics/scene_maker.h"
 
 #include <gtest/gtest.h>

@@ -2,7 +2,7 @@
 #include "core/emitter/environment_map.h"
 #include "core/image/display.h"
 #include "core/sampling/sampler.h"
-#include "operators/known/quadrature.h"
+#include "operators/experiments/known/quadrature.h"
 #include "tests/physics/cell_counts.h"
 #include "tests/physics/probe.h"
 #include "tests/physics/scene_maker.h"

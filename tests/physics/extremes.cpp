@@ -1,6 +1,6 @@
 // Odd scenes with plain answers.
 #include "core/sampling/warp.h"
-#include "operators/methods/render.h"
+#include "operators/render/methods/render.h"
 #include "tests/physics/probe.h"
 #include "tests/physics/scene_maker.h"
 

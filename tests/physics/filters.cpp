@@ -1,6 +1,6 @@
 // Pictures through reconstruction filters.
-#include "operators/methods/render.h"
-#include "operators/pictures/field_rendering.h"
+#include "operators/render/from_fields/field_rendering.h"
+#include "operators/render/methods/render.h"
 #include "tests/physics/scene_maker.h"
 
 #include <gtest/gtest.h>

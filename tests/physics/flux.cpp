@@ -1,6 +1,6 @@
 // Laws that need no reference solution. T keeps the flux and R takes its share 1 − ρ: with the same ρ everywhere in a closed scene
-// ∫ K^i Le dA = ρ^i ∫ Le dA. And K is linear: emitters add up. More such laws are in operators/known/furnace.cpp.
-#include "operators/known/enclosures.h"
+// ∫ K^i Le dA = ρ^i ∫ Le dA. And K is linear: emitters add up. More such laws are in operators/experiments/known/furnace.cpp.
+#include "operators/experiments/known/enclosures.h"
 #include "tests/physics/probe.h"
 
 #include <gtest/gtest.h>

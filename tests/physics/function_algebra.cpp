@@ -2,10 +2,10 @@
 #include "core/geometry/area_sampler.h"
 #include "core/sampling/sampler.h"
 #include "core/sampling/warp.h"
+#include "operators/algebra/neumann_series.h"
 #include "operators/pointwise/emission.h"
 #include "operators/pointwise/reflection.h"
 #include "operators/pointwise/transport.h"
-#include "operators/series/neumann_series.h"
 #include "tests/physics/scene_maker.h"
 #include "tests/physics/seed.h"
 

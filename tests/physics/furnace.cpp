@@ -1,7 +1,7 @@
 // The white furnace: Le = 1 and albedo ρ everywhere in a closed scene of any shape give K^i Le = ρ^i. A sample that never looks for
 // lights carries exactly ρ^i, so there is no variance, and rounding is all that remains: |K^i Le − ρ^i| ≤ 8 i ε.
-#include "operators/known/enclosures.h"
-#include "operators/methods/render.h"
+#include "operators/experiments/known/enclosures.h"
+#include "operators/render/methods/render.h"
 #include "tests/physics/probe.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // hide_emitters: what the camera sees of a scene whose lights it sees through.
-#include "operators/methods/render.h"
+#include "operators/render/methods/render.h"
 #include "tests/physics/scene_maker.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // What may not depend on the choice of units or of the origin. The same random numbers make the same walks, so whole pictures are
 // compared, pixel by pixel.
-#include "operators/methods/render.h"
+#include "operators/render/methods/render.h"
 #include "tests/physics/probe.h"
 #include "tests/physics/scene_maker.h"
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/sampling/sampler.h"
-#include "operators/known/quadrature.h"
+#include "operators/experiments/known/quadrature.h"
 #include "tests/physics/cell_counts.h"
 #include "tests/physics/seed.h"
 

@@ -1,7 +1,7 @@
 // What a sensor with one pixel measures, by several methods, against what is known.
 #pragma once
 
-#include "operators/methods/render.h"
+#include "operators/render/methods/render.h"
 #include "tests/physics/scene_maker.h"
 #include "tests/physics/seed.h"
 

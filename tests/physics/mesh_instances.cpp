@@ -7,8 +7,8 @@
 #include "core/geometry/transformed.h"
 #include "core/sampling/sampler.h"
 #include "core/sampling/warp.h"
-#include "operators/known/scene_maker.h"
-#include "operators/patches/patches.h"
+#include "operators/experiments/known/scene_maker.h"
+#include "operators/fields/patches/patches.h"
 #include "tests/physics/scene_maker.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // Normal and bump maps: the nested material around another normal.
 #include "core/sampling/sampler.h"
-#include "operators/known/quadrature.h"
+#include "operators/experiments/known/quadrature.h"
 #include "tests/physics/scene_maker.h"
 
 #include <gtest/gtest.h>

@@ -1,9 +1,9 @@
 // Pictures in blocks of pixels, replicate by replicate, with their errors and their bias.
 #pragma once
 
-#include "operators/methods/sampling.h"
-#include "operators/pictures/picture_bias.h"
-#include "operators/pictures/picture_sampler.h"
+#include "operators/render/from_paths/picture_sampler.h"
+#include "operators/render/methods/sampling.h"
+#include "operators/render/report/picture_bias.h"
 
 #include <cmath>
 #include <cstdint>

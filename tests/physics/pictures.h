@@ -1,7 +1,7 @@
 // Pictures by a sampler whose settings no method has.
 #pragma once
 
-#include "operators/pictures/picture_sampler.h"
+#include "operators/render/from_paths/picture_sampler.h"
 
 namespace neumann::physics {
 

@@ -5,7 +5,7 @@
 // z). The whole of this folder makes about 1500 of them: 4% for a new seed, and none with the fixed one.
 #pragma once
 
-#include "operators/known/probe.h"
+#include "operators/experiments/known/probe.h"
 #include "tests/physics/seed.h"
 
 #include <functional>

@@ -1,6 +1,6 @@
 // Rough metals: the laws of a material, by quadrature and χ².
 #include "core/sampling/sampler.h"
-#include "operators/known/quadrature.h"
+#include "operators/experiments/known/quadrature.h"
 #include "tests/physics/cell_counts.h"
 #include "tests/physics/probe.h"
 

@@ -1,6 +1,6 @@
 // A sphere of a rough metal without absorption: a chord leaves and arrives at the same angle, so that terms are known.
 #include "core/base/frame.h"
-#include "operators/known/quadrature.h"
+#include "operators/experiments/known/quadrature.h"
 #include "tests/physics/probe.h"
 #include "tests/physics/scene_maker.h"
 
@@ -20,7 +20,7 @@ StartPicker under(const Scene& scene, double mu) {
     return [start = Start{p, Frame(-n).to_world(at_cosine(mu))}](Random&) { return start; };
 }
 
-// K, K² and K³ at the cosines 1 and 0.2, α = 0.5 (operators/known/microfacets.cpp). Lights found in the other ways, and the
+// K, K² and K³ at the cosines 1 and 0.2, α = 0.5 (operators/experiments/known/microfacets.cpp). Lights found in the other ways, and the
 // operators; light sampling meets the highlight by chance. 2 angles × 4 ways × 3 bounces, to 1.5%: 24 comparisons.
 TEST(RoughFurnaceSlow, AllWaysFindTheSameTerms) {
     const Scene scene = sphere(RoughConductor(Ggx(0.5), {}, Rgb(1.0), Masking::height_correlated));

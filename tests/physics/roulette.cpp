@@ -1,5 +1,5 @@
 // In a furnace of albedo ρ a walk that goes on with probability q scores (ρ/q)^k at its k-th reflection, with probability q^k.
-#include "operators/walk/furnace_walk.h"
+#include "operators/paths/walk/furnace_walk.h"
 #include "tests/physics/probe.h"
 #include "tests/physics/scene_maker.h"
 

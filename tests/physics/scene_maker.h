@@ -1,7 +1,7 @@
-// Scenes put together by hand, as operators/known has them.
+// Scenes put together by hand, as operators/experiments/known has them.
 #pragma once
 
-#include "operators/known/scene_maker.h"
+#include "operators/experiments/known/scene_maker.h"
 
 namespace neumann::physics {
 

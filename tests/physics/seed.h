@@ -1,7 +1,7 @@
 // The seed of the statistical tests: the same every day, or what NEUMANN_TEST_SEED says, to run them over many.
 #pragma once
 
-#include "operators/known/probe.h"
+#include "operators/experiments/known/probe.h"
 
 #include <cstdint>
 #include <cstdlib>

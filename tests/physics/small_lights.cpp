@@ -1,7 +1,7 @@
 // Lights that no ray meets, or that surround the scene alike on all sides: what they bring is known exactly.
+#include "core/image/bitmap.h"
 #include "core/sampling/sampler.h"
-#include "core/texture/bitmap.h"
-#include "operators/methods/render.h"
+#include "operators/render/methods/render.h"
 #include "tests/physics/probe.h"
 #include "tests/physics/scene_maker.h"
 

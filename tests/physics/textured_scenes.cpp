@@ -1,7 +1,7 @@
 // Rendered textures and normal maps against exact integrals. 6 comparisons by z.
+#include "core/image/bitmap.h"
 #include "core/scene/normal_maps.h"
-#include "core/texture/bitmap.h"
-#include "operators/known/quadrature.h"
+#include "operators/experiments/known/quadrature.h"
 #include "tests/physics/probe.h"
 #include "tests/physics/scene_maker.h"
 

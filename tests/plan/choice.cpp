@@ -1,8 +1,8 @@
 // --method auto: what it takes, and that it is nothing but the method that it took.
 #include "core/reader/read_scene.h"
-#include "operators/methods/choose_method.h"
-#include "operators/methods/method_options.h"
-#include "operators/methods/render.h"
+#include "operators/render/methods/choose_method.h"
+#include "operators/render/methods/method_options.h"
+#include "operators/render/methods/render.h"
 #include "tests/physics/seed.h"
 #include "tests/plan/scenes.h"
 

@@ -1,9 +1,9 @@
 // Proofs of what surfaces see of each other, on bodies where it is known, and beside rays that try to find the contrary.
-#include "operators/plan/half_spaces.h"
+#include "operators/render/plan/half_spaces.h"
 
 #include "core/geometry/area_sampler.h"
 #include "core/sampling/sampler.h"
-#include "operators/walk/left_out.h"
+#include "operators/paths/walk/left_out.h"
 #include "tests/physics/scene_maker.h"
 
 #include <gtest/gtest.h>

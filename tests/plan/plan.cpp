@@ -1,5 +1,5 @@
 // What a look at a scene finds.
-#include "operators/plan/plan.h"
+#include "operators/render/plan/plan.h"
 
 #include "core/reader/read_scene.h"
 #include "tests/plan/scenes.h"

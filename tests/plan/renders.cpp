@@ -1,8 +1,8 @@
 // A render is a function: of the same scene, method and goal it is the same, and it leaves the scene as it was.
 #include "core/geometry/ray_caster.h"
-#include "operators/methods/method_options.h"
-#include "operators/methods/render.h"
-#include "operators/pictures/pilot.h"
+#include "operators/render/from_paths/pilot.h"
+#include "operators/render/methods/method_options.h"
+#include "operators/render/methods/render.h"
 #include "tests/physics/seed.h"
 #include "tests/plan/scenes.h"
 

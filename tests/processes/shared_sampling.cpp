@@ -1,10 +1,10 @@
 // Replicates that several helpers sample have the bits of those that one process samples, whoever did what and when.
-#include "operators/pictures/shared_sampling.h"
 #include "apps/processes/share_message.h"
 #include "core/reader/read_scene.h"
-#include "operators/methods/method_options.h"
-#include "operators/methods/sampling.h"
-#include "operators/pictures/rendered_series.h"
+#include "operators/render/from_paths/rendered_series.h"
+#include "operators/render/from_paths/shared_sampling.h"
+#include "operators/render/methods/method_options.h"
+#include "operators/render/methods/sampling.h"
 
 #include <gtest/gtest.h>
 

@@ -68,7 +68,7 @@ class Series(Case):
 
 class Solvers(Case):
     def test_cube_at_0_99(self):
-        # Applications of K until the error is 1e-3 at albedo 0.99, as other programs count them; see operators/known/acceleration.cpp.
+        # Applications of K until the error is 1e-3 at albedo 0.99, as other programs count them; see operators/experiments/known/acceleration.cpp.
         # Theirs may differ by 2, or by 10%.
         room = neumann.cube(16)
         K, rho = 0.99 * room.F, np.full(len(room.area), 0.99)

@@ -1,7 +1,7 @@
 // The table of metals against the measurements that it comes from.
-#include "core/colour/metals.h"
+#include "core/image/colour/metals.h"
 
-#include "core/colour/spectrum_to_rgb.h"
+#include "core/image/colour/spectrum_to_rgb.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Lights: pbrt files and Mitsuba files that say the same, and light by the numbers that pbrt promises.
-#include "core/reader/pbrt/octahedral.h"
+#include "core/reader/formats/pbrt/octahedral.h"
 #include "core/sampling/warp.h"
 #include "tests/reader/pbrt_scene_files.h"
 

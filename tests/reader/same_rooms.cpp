@@ -1,6 +1,6 @@
 // One room in five languages (tests/data/rooms): its terms are the same, bounce by bounce.
 #include "core/reader/read_scene.h"
-#include "operators/methods/render.h"
+#include "operators/render/methods/render.h"
 #include "operators/statistics/picture_statistics.h"
 #include "tests/physics/seed.h"
 

@@ -1,8 +1,8 @@
 // Spectra as colours, against the CIE's figures and the colours that Mitsuba's Cornell box gives for its own spectra.
-#include "core/colour/spectrum_to_rgb.h"
+#include "core/image/colour/spectrum_to_rgb.h"
 
-#include "core/colour/blackbody.h"
-#include "core/colour/cie.h"
+#include "core/image/colour/blackbody.h"
+#include "core/image/colour/cie.h"
 
 #include <gtest/gtest.h>
 

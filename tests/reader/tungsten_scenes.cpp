@@ -1,6 +1,6 @@
 // Where things stand in Tungsten's scenes, what is seen of them, and how many bounces there are.
 #include "core/geometry/shading_point.h"
-#include "core/reader/tungsten/transforms.h"
+#include "core/reader/formats/tungsten/transforms.h"
 #include "tests/reader/gltf_scene_files.h"
 #include "tests/reader/tungsten_scene_files.h"
 

@@ -1,5 +1,5 @@
 // What is wrong with objects and their parameters.
-#include "core/colour/metals.h"
+#include "core/image/colour/metals.h"
 #include "tests/reader/xml_scene_files.h"
 
 namespace neumann::xml_value_errors_test {

@@ -1,6 +1,6 @@
 // Walks that use each other's tails: the terms of the walk, whatever they share, with less variance for as many rays.
 #include "core/reader/read_scene.h"
-#include "operators/pictures/picture_sampler.h"
+#include "operators/render/from_paths/picture_sampler.h"
 #include "tests/physics/picture_blocks.h"
 #include "tests/physics/seed.h"
 

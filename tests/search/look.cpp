@@ -1,7 +1,7 @@
 #include "tests/search/look.h"
 
-#include "operators/methods/method_options.h"
-#include "operators/methods/render.h"
+#include "operators/render/methods/method_options.h"
+#include "operators/render/methods/render.h"
 
 #include <fmt/format.h>
 

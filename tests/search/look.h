@@ -4,7 +4,7 @@
 #include "tests/search/measured.h"
 
 #include "core/scene/scene.h"
-#include "operators/pictures/pilot.h"
+#include "operators/render/from_paths/pilot.h"
 
 #include <cstdint>
 #include <string>

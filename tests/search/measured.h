@@ -2,7 +2,7 @@
 // channels and of its quarters.
 #pragma once
 
-#include "operators/methods/bounce_series.h"
+#include "operators/render/methods/bounce_series.h"
 
 #include <array>
 #include <string>

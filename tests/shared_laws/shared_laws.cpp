@@ -5,11 +5,11 @@
 // Prints JSON: defects and largest differences over all processes.
 #include "core/base/module.h"
 #include "core/reader/read_scene.h"
-#include "operators/matrix/traced_system.h"
-#include "operators/petsc/petsc_solver.h"
-#include "operators/shared/shared_system.h"
+#include "operators/fields/matrix/traced_system.h"
+#include "operators/fields/shared/shared_system.h"
+#include "operators/solvers/petsc/petsc_solver.h"
 #include "operators/solvers/series_run.h"
-#include "operators/spectrum/closure.h"
+#include "operators/solvers/spectrum/closure.h"
 
 #include <fmt/format.h>
 

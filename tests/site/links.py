@@ -79,7 +79,7 @@ def main():
         given = len(sys.argv) > 2
         site = Path(sys.argv[2]) if given else Path(folder).resolve() / "site"
         if not given:
-            command = [sys.executable, "-B", repository / "apps/site/make_site.py", "--no-renders", "--no-lessons", "-o", site]
+            command = [sys.executable, "-B", repository / "apps/manual/site/make_site.py", "--no-renders", "--no-lessons", "-o", site]
             subprocess.run(command, check=True)
         found, pages, followed = problems(site)
         assert not found, "\n" + "\n".join(found)

@@ -1,6 +1,6 @@
 // How many applications of K each method takes on the cube of 16 × 16 patches a face whose ceiling emits, until ‖x − L‖∞ ≤ ε ‖L‖∞
-// for ε = 1e-3, 1e-6, 1e-10, with L by LU. What other programs count is in operators/known/acceleration.cpp.
-#include "operators/known/cube.h"
+// for ε = 1e-3, 1e-6, 1e-10, with L by LU. What other programs count is in operators/experiments/known/acceleration.cpp.
+#include "operators/experiments/known/cube.h"
 #include "operators/solvers/krylov.h"
 #include "operators/solvers/lu.h"
 #include "operators/solvers/relaxation.h"

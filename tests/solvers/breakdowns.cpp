@@ -1,6 +1,6 @@
 // Where methods have no answer, or one that must not be believed.
-#include "operators/known/cube.h"
-#include "operators/known/small_problems.h"
+#include "operators/experiments/known/cube.h"
+#include "operators/experiments/known/small_problems.h"
 #include "operators/solvers/chebyshev.h"
 #include "operators/solvers/krylov.h"
 #include "operators/solvers/lu.h"

@@ -1,6 +1,6 @@
 // The interface, dense and sparse, against each other and against the matrix itself.
-#include "operators/known/small_problems.h"
-#include "operators/spectrum/closure.h"
+#include "operators/experiments/known/small_problems.h"
+#include "operators/solvers/spectrum/closure.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
-// The two-sided enclosure: what it stops, and what has none. Its figures are in operators/known/series_verdicts.cpp.
-#include "operators/known/cube.h"
-#include "operators/known/small_problems.h"
+// The two-sided enclosure: what it stops, and what has none. Its figures are in operators/experiments/known/series_verdicts.cpp.
+#include "operators/experiments/known/cube.h"
+#include "operators/experiments/known/small_problems.h"
 #include "operators/solvers/lu.h"
 #include "operators/solvers/series_run.h"
 

@@ -1,6 +1,6 @@
 // What every solver says of its error, where most of what it sees falls fast and the little that is left falls slowly, and where
 // nothing falls for long: rates that are seen are not those that are there.
-#include "operators/known/small_problems.h"
+#include "operators/experiments/known/small_problems.h"
 #include "operators/solvers/inverse_bound.h"
 #include "operators/solvers/series_run.h"
 #include "operators/solvers/solvers.h"

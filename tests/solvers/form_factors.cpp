@@ -1,7 +1,7 @@
-// Laws of form factors, and the cube put together of them. Closed forms are in operators/known/first_bounce.cpp.
-#include "operators/matrix/form_factors.h"
-#include "operators/known/cube.h"
-#include "operators/spectrum/closure.h"
+// Laws of form factors, and the cube put together of them. Closed forms are in operators/experiments/known/first_bounce.cpp.
+#include "operators/experiments/known/cube.h"
+#include "operators/fields/matrix/form_factors.h"
+#include "operators/solvers/spectrum/closure.h"
 
 #include <gtest/gtest.h>
 

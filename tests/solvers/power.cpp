@@ -1,5 +1,5 @@
-#include "operators/known/cube.h"
-#include "operators/solvers/term_series.h"
+#include "operators/algebra/term_series.h"
+#include "operators/experiments/known/cube.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
-// What stops the series, and what must not; more of it in operators/known/series_verdicts.cpp.
-#include "operators/known/cube.h"
-#include "operators/known/small_problems.h"
+// What stops the series, and what must not; more of it in operators/experiments/known/series_verdicts.cpp.
+#include "operators/experiments/known/cube.h"
+#include "operators/experiments/known/small_problems.h"
+#include "operators/solvers/remaining.h"
 #include "operators/solvers/series_run.h"
-#include "operators/spectrum/remaining.h"
 
 #include <gtest/gtest.h>
 

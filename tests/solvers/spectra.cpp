@@ -1,10 +1,10 @@
-// How eigenvalues and norms are found, and what is said where they are not. Known spectra are in operators/known/eigenvalues.cpp.
-#include "operators/known/cube.h"
-#include "operators/known/small_problems.h"
-#include "operators/spectrum/closure.h"
-#include "operators/spectrum/radius_bounds.h"
-#include "operators/spectrum/rounding_floor.h"
-#include "operators/spectrum/spectrum.h"
+// How eigenvalues and norms are found, and what is said where they are not. Known spectra are in operators/experiments/known/eigenvalues.cpp.
+#include "operators/experiments/known/cube.h"
+#include "operators/experiments/known/small_problems.h"
+#include "operators/solvers/spectrum/closure.h"
+#include "operators/solvers/spectrum/radius_bounds.h"
+#include "operators/solvers/spectrum/rounding_floor.h"
+#include "operators/solvers/spectrum/spectrum.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // Two unknowns, where everything can be written down: near-parallel plates (concentric spheres) and the dome over a disc. Their
-// terms and eigenvalues are in operators/known/two_patches.cpp.
-#include "operators/known/small_problems.h"
+// terms and eigenvalues are in operators/experiments/known/two_patches.cpp.
+#include "operators/experiments/known/small_problems.h"
 #include "operators/solvers/series_run.h"
 #include "operators/solvers/solvers.h"
 

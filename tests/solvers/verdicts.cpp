@@ -1,7 +1,7 @@
 // What every solver has to say of problems whose spectrum and sum are known exactly, with the spectral radius given and without. A
 // series diverges where the radius is 1 or more, and nowhere else: not where terms alternate, stay for long or grow before they
 // fall, nor where they are down to rounding.
-#include "operators/known/small_problems.h"
+#include "operators/experiments/known/small_problems.h"
 #include "operators/solvers/series_run.h"
 #include "operators/solvers/series_solvers.h"
 #include "operators/solvers/solvers.h"

@@ -2,10 +2,10 @@
 // variance of renders that split.
 #include "core/base/error.h"
 #include "core/reader/read_scene.h"
-#include "operators/pictures/picture_sampler.h"
-#include "operators/splitting/tree_numbers.h"
-#include "operators/splitting/tree_pilot.h"
-#include "operators/splitting/tree_ratios.h"
+#include "operators/paths/walk/tree_numbers.h"
+#include "operators/paths/walk/tree_pilot.h"
+#include "operators/paths/walk/tree_ratios.h"
+#include "operators/render/from_paths/picture_sampler.h"
 #include "tests/physics/picture_blocks.h"
 #include "tests/physics/seed.h"
 

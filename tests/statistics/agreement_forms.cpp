@@ -2,8 +2,8 @@
 // walk as a fifth. All have to say the same of the same places in the Cornell box.
 #include "core/reader/read_scene.h"
 #include "core/sampling/sampler.h"
-#include "operators/pictures/picture_sampler.h"
 #include "operators/pointwise/surface_reflection.h"
+#include "operators/render/from_paths/picture_sampler.h"
 
 #include <gtest/gtest.h>
 #include <oneapi/tbb/parallel_for.h>

@@ -1,9 +1,9 @@
 // All methods say the same of open scenes, lit by what surrounds them and by lights without extent: the mean of each bounce's
 // picture.
 #include "core/reader/read_scene.h"
-#include "operators/pictures/field_rendering.h"
-#include "operators/pictures/rendered_series.h"
-#include "operators/pictures/series_report.h"
+#include "operators/render/from_fields/field_rendering.h"
+#include "operators/render/from_paths/rendered_series.h"
+#include "operators/render/report/series_report.h"
 #include "operators/statistics/picture_statistics.h"
 
 #include <gtest/gtest.h>

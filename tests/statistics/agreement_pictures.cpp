@@ -1,7 +1,7 @@
 // The walk and the plain operators say the same of every bounce of the Cornell box: pictures of 32×32 pixels, their means and those
 // of blocks of 8×8.
 #include "core/reader/read_scene.h"
-#include "operators/pictures/picture_sampler.h"
+#include "operators/render/from_paths/picture_sampler.h"
 #include "tests/physics/seed.h"
 
 #include <gtest/gtest.h>

@@ -1,8 +1,8 @@
 // One scene, one verdict: where no sample can exceed a bound, no method may say that the variance is infinite.
 #include "core/emitter/environment_map.h"
-#include "operators/guide/guide.h"
-#include "operators/pictures/bounded_samples.h"
-#include "operators/pictures/series_report.h"
+#include "operators/paths/guided/guide.h"
+#include "operators/render/from_paths/bounded_samples.h"
+#include "operators/render/report/series_report.h"
 #include "tests/physics/scene_maker.h"
 
 #include <gtest/gtest.h>

@@ -2,7 +2,7 @@
 // samples of light sampling have P(X > x) ~ x^−1.5. At one point that holds from K² Le on, and already for K Le in a picture, where
 // pixels see the edge; no interval is to be trusted then. BSDF sampling and MIS have samples that are bounded.
 #include "core/reader/read_scene.h"
-#include "operators/pictures/picture_sampler.h"
+#include "operators/render/from_paths/picture_sampler.h"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
 // Pixels with different numbers of samples: which numbers are best, how paths are then numbered, and that pictures keep their means
 // and their errors.
-#include "operators/pictures/allocation.h"
 #include "core/reader/read_scene.h"
-#include "operators/pictures/picture_sampler.h"
-#include "operators/pictures/replay.h"
+#include "operators/render/from_paths/allocation.h"
+#include "operators/render/from_paths/picture_sampler.h"
+#include "operators/render/report/replay.h"
 #include "operators/statistics/student_t.h"
 #include "tests/physics/picture_blocks.h"
 #include "tests/physics/seed.h"

@@ -2,7 +2,7 @@
 // small pictures with many seeds. Both scenes have answers that are known exactly, for every pixel and every bounce. A pass is 93%
 // … 97%, for each sampler and bounce over at least 10,240 intervals of both scenes together (the count itself is uncertain by
 // ±0.43%, 2σ), and for each scene by itself over 5120 (±0.61%): intervals that are right fail with a probability below 1e-10.
-#include "operators/pictures/picture_sampler.h"
+#include "operators/render/from_paths/picture_sampler.h"
 #include "operators/statistics/picture_statistics.h"
 #include "operators/statistics/student_t.h"
 

@@ -8,8 +8,8 @@
 // pixels are slivers, more than that must hold the truth: 60% of them have nothing but an upper bound, which is to hold, too.
 #include "core/image/pixel_estimate.h"
 #include "core/reader/read_scene.h"
-#include "operators/known/scene_maker.h"
-#include "operators/pictures/least_errors.h"
+#include "operators/experiments/known/scene_maker.h"
+#include "operators/render/report/least_errors.h"
 #include "operators/statistics/student_t.h"
 
 #include <gtest/gtest.h>

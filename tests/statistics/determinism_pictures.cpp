@@ -1,8 +1,8 @@
 // The same seed and the same samples give the same bits: whatever the number of threads, and however a run was cut into blocks.
 #include "core/reader/read_scene.h"
-#include "operators/methods/method_options.h"
-#include "operators/methods/sampling.h"
-#include "operators/pictures/picture_sampler.h"
+#include "operators/render/from_paths/picture_sampler.h"
+#include "operators/render/methods/method_options.h"
+#include "operators/render/methods/sampling.h"
 
 #include <gtest/gtest.h>
 #include <oneapi/tbb/global_control.h>

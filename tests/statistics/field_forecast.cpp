@@ -1,7 +1,7 @@
 // What renders from fields foretell of the next one: errors of which the parts are known, times and bytes.
-#include "operators/pictures/field_costs.h"
-#include "operators/pictures/field_errors.h"
-#include "operators/pictures/field_memory.h"
+#include "operators/render/from_fields/field_costs.h"
+#include "operators/render/from_fields/field_errors.h"
+#include "operators/render/from_fields/field_memory.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Pictures read from fields: interrupted, and in rooms whose deep bounces leak from a gap.
 #include "core/reader/read_scene.h"
-#include "operators/pictures/field_rendering.h"
+#include "operators/render/from_fields/field_rendering.h"
 
 #include <gtest/gtest.h>
 #include <oneapi/tbb/task_arena.h>

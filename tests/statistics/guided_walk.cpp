@@ -1,7 +1,7 @@
 // Walks whose directions are drawn by tables of what a surface sees.
 #include "core/reader/read_scene.h"
-#include "operators/known/enclosures.h"
-#include "operators/matrix/scene_patches.h"
+#include "operators/experiments/known/enclosures.h"
+#include "operators/fields/matrix/scene_patches.h"
 #include "operators/statistics/picture_statistics.h"
 #include "tests/physics/material_laws.h"
 #include "tests/physics/pictures.h"

@@ -1,9 +1,9 @@
 // More samples make no picture worse: eight million samples of a pixel are added up as exactly as a few.
 #include "core/reader/read_scene.h"
-#include "operators/known/scene_maker.h"
-#include "operators/methods/method_options.h"
-#include "operators/methods/render.h"
-#include "operators/pictures/field_rendering.h"
+#include "operators/experiments/known/scene_maker.h"
+#include "operators/render/from_fields/field_rendering.h"
+#include "operators/render/methods/method_options.h"
+#include "operators/render/methods/render.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // Every way to make paths says the same of every bounce, on scenes with all kinds of lights, cameras, filters and materials, whose
 // surfaces do not touch. That `light` agrees with `walk` is the adjoint identity ⟨We, K^i Le⟩ = ⟨K*^i We, Le⟩.
 #include "core/reader/read_scene.h"
-#include "operators/pictures/missing_paths.h"
-#include "operators/pictures/picture_sampler.h"
+#include "operators/render/from_paths/picture_sampler.h"
+#include "operators/render/report/missing_paths.h"
 #include "tests/physics/seed.h"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 // What no sample of a picture met is bounded by what a sample may bring in each method, not by what those of others bring.
-#include "operators/known/scene_maker.h"
-#include "operators/methods/render.h"
+#include "operators/experiments/known/scene_maker.h"
+#include "operators/render/methods/render.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Where pictures differ, with errors that are made up.
-#include "operators/study/differing_places.h"
+#include "operators/experiments/study/differing_places.h"
 
 #include <gtest/gtest.h>
 

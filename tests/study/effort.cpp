@@ -1,7 +1,7 @@
-#include "operators/study/effort.h"
+#include "operators/experiments/study/effort.h"
 
-#include "operators/pictures/rendered_series.h"
-#include "operators/study/method_summary.h"
+#include "operators/experiments/study/method_summary.h"
+#include "operators/render/from_paths/rendered_series.h"
 
 #include <gtest/gtest.h>
 

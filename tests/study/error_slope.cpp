@@ -1,4 +1,4 @@
-#include "operators/study/error_slope.h"
+#include "operators/experiments/study/error_slope.h"
 
 #include "tests/physics/seed.h"
 

@@ -1,5 +1,5 @@
 // Bias and variance of pictures whose errors are made up, so that both are known.
-#include "operators/study/picture_errors.h"
+#include "operators/experiments/study/picture_errors.h"
 
 #include "core/base/error.h"
 #include "operators/statistics/student_t.h"

@@ -1,4 +1,4 @@
-#include "operators/study/reference_choice.h"
+#include "operators/experiments/study/reference_choice.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // From runs and their pictures to points and ranks, with pictures whose errors are known.
-#include "operators/study/study_points.h"
+#include "operators/experiments/study/study_points.h"
 
 #include <gtest/gtest.h>
 

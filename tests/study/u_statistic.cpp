@@ -1,4 +1,4 @@
-#include "operators/study/u_statistic.h"
+#include "operators/experiments/study/u_statistic.h"
 
 #include "tests/physics/seed.h"
 

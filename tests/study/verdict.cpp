@@ -1,9 +1,9 @@
 // The interval of a ratio, the verdict on a picture, the repeats that an interval takes, and what the times of a study are expected
 // to be.
-#include "operators/study/verdict.h"
+#include "operators/experiments/study/verdict.h"
 
+#include "operators/experiments/study/repeats.h"
 #include "operators/statistics/student_t.h"
-#include "operators/study/repeats.h"
 #include "tests/physics/seed.h"
 
 #include <gtest/gtest.h>

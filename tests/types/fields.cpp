@@ -1,8 +1,8 @@
 // Compiled with one EXPRESSION after the other (CMakeLists.txt), of functions or ON_PATCHES; nothing runs.
-#include "operators/series/algebra.h"
+#include "operators/algebra/algebra.h"
 #ifdef ON_PATCHES
-#include "operators/matrix/reflection_matrix.h"
-#include "operators/matrix/transport_matrix.h"
+#include "operators/fields/matrix/reflection_matrix.h"
+#include "operators/fields/matrix/transport_matrix.h"
 #else
 #include "operators/pointwise/reflection.h"
 #include "operators/pointwise/transport.h"

@@ -1,5 +1,5 @@
 // T⁻¹ by elimination, by Tikhonov's regularisation and by Bai's series.
-#include "operators/unbounce/inverse_series.h"
+#include "operators/experiments/unbounce/inverse_series.h"
 #include "tests/unbounce/synthetic.h"
 
 #include <gtest/gtest.h>

@@ -1,10 +1,10 @@
 // One set of walks for all lights: its pictures beside renders of each light by itself, their errors beside repeats, and what light
 // makes that comes by way of surfaces that are not seen. The seeds are fixed.
 #include "core/reader/read_scene.h"
-#include "operators/methods/render.h"
+#include "operators/experiments/unbounce/doubts.h"
+#include "operators/experiments/unbounce/light_renders.h"
+#include "operators/render/methods/render.h"
 #include "operators/statistics/student_t.h"
-#include "operators/unbounce/doubts.h"
-#include "operators/unbounce/light_renders.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // Pixels by the operators of the regions, on pictures that are known exactly: T_p = T¹_p + A_p T, with a row A_p for each pixel
 // whose mean over a region is the region's row of A.
 #include "core/base/error.h"
-#include "operators/unbounce/doubts.h"
+#include "operators/experiments/unbounce/doubts.h"
 #include "tests/unbounce/synthetic.h"
 
 #include <gtest/gtest.h>

@@ -1,8 +1,8 @@
 // Scenes rendered under a projector's lights: the inverse series beside the forward one, and what breaks it. Comparisons are of
 // means and pass at 4.5 standard errors: a false alarm in 147 000 each, of which there are about 60. The seeds are fixed.
 #include "core/reader/read_scene.h"
-#include "operators/unbounce/doubts.h"
-#include "operators/unbounce/light_renders.h"
+#include "operators/experiments/unbounce/doubts.h"
+#include "operators/experiments/unbounce/light_renders.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // Matrices of pictures that are known to the last digit: T = (I − A)⁻¹ T¹.
 #pragma once
 
-#include "operators/unbounce/unbounced_channel.h"
+#include "operators/experiments/unbounce/unbounced_channel.h"
 
 #include <Eigen/LU>
 

@@ -1,5 +1,6 @@
 """A rendered series: its bounces, sums and rest."""
 
+import html
 from functools import cached_property
 from os import PathLike, fsencode, fspath
 from pathlib import Path
@@ -9,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _neumann, _report
-from ._display import as_facts, exposure_of, frame, large, of_bounces, show, small, strip
+from ._display import as_facts, frame, large, row, show, small
 from ._progress import run as run_job
 from ._report import Report
 from ._sources import Folder, Memory, Picture, Pictures, Source
@@ -17,6 +18,41 @@ from ._sources import Folder, Memory, Picture, Pictures, Source
 if TYPE_CHECKING:
     import pandas
     import xarray
+
+
+_shown_at_most = 12  # pictures in a row: the others are in the arrays
+
+
+def _mean(figures: Any) -> str:
+    if figures.get("mean") is None:
+        return ""
+    interval = figures.get("interval95")
+    return f"mean {figures['mean']:.4g}" + (f" ± {interval:.1g}" if isinstance(interval, float) else "")
+
+
+def _exposure_of(series: "BounceSeries") -> float:
+    """For all pictures of a series, so that their brightness can be compared."""
+    importance = series.run.quantity.name.startswith("importance")
+    return _neumann.exposure(series.sums[-1], series.sums[-1] if importance else series.terms[0])
+
+
+def _strip(series: "BounceSeries") -> str:
+    """HTML of a series."""
+    run, shown = series.run, min(series.bounces + 1, _shown_at_most)
+    exposure = _exposure_of(series)
+    terms = [(series.terms[i], f"bounce {i}", _mean(run.bounces[i])) for i in range(shown)]
+    if series.rest is not None and shown == series.bounces + 1:
+        terms.append((series.rest, f"rest, beyond {series.bounces}", _mean(run.rest)))
+    sums = [(series.sums[i], "sum 0" if i == 0 else f"sum 0..{i}", "") for i in range(shown)]
+    more = "" if shown > series.bounces else f" (the first {shown} of {series.bounces + 1} bounces)"
+    note = f"{series.title}; exposure × {exposure:.3g}, sRGB{more}"
+    return f"<div>{row(terms, exposure)}{row(sums, exposure)}<div style='font-size: 85%'>{html.escape(note)}</div></div>"
+
+
+def _of_bounces(bounces: List["Bounce"], exposure: float, height: int) -> str:
+    """HTML of some of its bounces."""
+    figures = [(b.value, f"bounce {b.bounce}", f"mean {b.mean:.4g}") for b in bounces]
+    return row(figures, exposure, height)
 
 
 class Way(NamedTuple):
@@ -54,7 +90,7 @@ class Bounce:
 
     def show(self) -> None:
         """Shows it, in a notebook or in the browser."""
-        picture = of_bounces([self], exposure_of(self._series), large)
+        picture = _of_bounces([self], _exposure_of(self._series), large)
         show(picture, picture)
 
     def __repr__(self) -> str:
@@ -62,7 +98,7 @@ class Bounce:
         return f"<Bounce {self.bounce} of {self._series.title}: {width} × {height} pixels, mean {self.mean:.4g}>"
 
     def _repr_html_(self) -> str:
-        return of_bounces([self], exposure_of(self._series), small)
+        return _of_bounces([self], _exposure_of(self._series), small)
 
 
 class Bounces(List[Bounce]):
@@ -72,7 +108,7 @@ class Bounces(List[Bounce]):
         return f"<Bounces {', '.join(str(b.bounce) for b in self)}>"
 
     def _repr_html_(self) -> str:
-        return of_bounces(self, exposure_of(self[0]._series), small) if self else ""
+        return _of_bounces(self, _exposure_of(self[0]._series), small) if self else ""
 
 
 class BounceSeries:
@@ -214,7 +250,7 @@ class BounceSeries:
         if bounce is not None:
             self[bounce].show()
         else:
-            show(strip(self), strip(self))
+            show(_strip(self), _strip(self))
 
     def page(self, height: int = 800) -> None:
         """Shows the explorer, the index.html of ``save()``: below the cell of a notebook, so many pixels high; elsewhere in the browser."""
@@ -279,7 +315,7 @@ class BounceSeries:
         )
 
     def _repr_html_(self) -> str:
-        return strip(self)
+        return _strip(self)
 
 
 def read(folder: Union[str, "PathLike[str]"]) -> BounceSeries:

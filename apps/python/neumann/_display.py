@@ -6,18 +6,14 @@ import sys
 import tempfile
 import webbrowser
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, List, Mapping, Tuple
+from typing import Any, Callable, List, Mapping, Tuple
 
 import numpy as np
 
 from . import _neumann
 from ._progress import in_notebook
 
-if TYPE_CHECKING:
-    from ._bounces import Bounce, BounceSeries
-
 small, large = 160, 480  # heights of pictures
-_most = 12  # pictures in a row: the others are in the arrays
 
 
 def _figure(picture: Any, exposure: float, label: str, title: str, height: int) -> str:
@@ -29,41 +25,10 @@ def _figure(picture: Any, exposure: float, label: str, title: str, height: int) 
     )
 
 
-def _row(pictures: List[Tuple[Any, str, str]], exposure: float, height: int = small) -> str:
+def row(pictures: List[Tuple[Any, str, str]], exposure: float, height: int = small) -> str:
+    """HTML of pictures beside each other, each with its label and what is told of it."""
     figures = "".join(_figure(picture, exposure, label, title, height) for picture, label, title in pictures)
     return f'<div style="white-space: nowrap; overflow-x: auto">{figures}</div>'
-
-
-def _mean(figures: Any) -> str:
-    if figures.get("mean") is None:
-        return ""
-    interval = figures.get("interval95")
-    return f"mean {figures['mean']:.4g}" + (f" ± {interval:.1g}" if isinstance(interval, float) else "")
-
-
-def exposure_of(series: "BounceSeries") -> float:
-    """For all pictures of a series, so that their brightness can be compared."""
-    importance = series.run.quantity.name.startswith("importance")
-    return _neumann.exposure(series.sums[-1], series.sums[-1] if importance else series.terms[0])
-
-
-def strip(series: "BounceSeries") -> str:
-    """HTML of a series."""
-    run, shown = series.run, min(series.bounces + 1, _most)
-    exposure = exposure_of(series)
-    terms = [(series.terms[i], f"bounce {i}", _mean(run.bounces[i])) for i in range(shown)]
-    if series.rest is not None and shown == series.bounces + 1:
-        terms.append((series.rest, f"rest, beyond {series.bounces}", _mean(run.rest)))
-    sums = [(series.sums[i], "sum 0" if i == 0 else f"sum 0..{i}", "") for i in range(shown)]
-    more = "" if shown > series.bounces else f" (the first {shown} of {series.bounces + 1} bounces)"
-    note = f"{series.title}; exposure × {exposure:.3g}, sRGB{more}"
-    return f"<div>{_row(terms, exposure)}{_row(sums, exposure)}<div style='font-size: 85%'>{html.escape(note)}</div></div>"
-
-
-def of_bounces(bounces: List["Bounce"], exposure: float, height: int) -> str:
-    """HTML of some of its bounces."""
-    figures = [(b.value, f"bounce {b.bounce}", f"mean {b.mean:.4g}") for b in bounces]
-    return _row(figures, exposure, height)
 
 
 def as_table(names: List[str], rows: List[List[Any]], caption: str = "") -> str:
@@ -135,11 +100,11 @@ class Live:
             if webbrowser.open(address):
                 self.server.expect()
 
-    def finish(self, series: "BounceSeries") -> None:
+    def finish(self, page: Callable[[], str]) -> None:
         if self._handle is not None:
             from IPython.display import HTML
 
-            self._handle.update(HTML(frame(series._source.page(), self.height)))
+            self._handle.update(HTML(frame(page(), self.height)))
 
 
 def frame(page: str, height: int) -> str:

@@ -144,7 +144,7 @@ class Scene(RayQueries, OnPatches):
         job = _neumann.render(self._scene, arguments, page.server if page else None)
         series: BounceSeries = run(job, quiet, lambda made: BounceSeries(Memory(made), self.path))
         if page:
-            page.finish(series)
+            page.finish(series._source.page)
         if not quiet:
             warn(series.warnings)
             warn(series.run.health.complaints, HealthWarning)

@@ -1,5 +1,5 @@
 // All that knows OpenImageIO, which reads pictures for core/image/image_io.h: a module that is loaded when a picture is first read.
-#include "core/image/module/picture_codec.h"
+#include "core/image/picture_codec.h"
 
 #include "core/base/error.h"
 #include "core/base/memory.h"

@@ -1,7 +1,7 @@
 #include "core/reader/plugins/bsdfs.h"
 
 #include "core/base/did_you_mean.h"
-#include "core/colour/metals.h"
+#include "core/image/colour/metals.h"
 #include "core/reader/plugins/glossy_bsdfs.h"
 #include "core/reader/plugins/plastics.h"
 #include "core/reader/plugins/principled_bsdfs.h"

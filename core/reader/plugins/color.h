@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/base/warnings.h"
-#include "core/colour/spectrum_to_rgb.h"
+#include "core/image/colour/spectrum_to_rgb.h"
 #include "core/reader/xml/properties.h"
 
 namespace neumann::reader {

@@ -1,7 +1,7 @@
 #include "core/reader/plugins/light_images.h"
 
+#include "core/image/bitmap.h"
 #include "core/reader/plugins/textures.h"
-#include "core/texture/bitmap.h"
 
 #include <fmt/format.h>
 

@@ -1,10 +1,10 @@
 #include "core/reader/plugins/textures.h"
 
 #include "core/base/printable.h"
+#include "core/image/bitmap.h"
 #include "core/image/display.h"
 #include "core/image/image_io.h"
-#include "core/texture/bitmap.h"
-#include "core/texture/uv_transform.h"
+#include "core/image/uv_transform.h"
 
 #include <fmt/format.h>
 #include <algorithm>

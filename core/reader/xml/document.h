@@ -2,8 +2,8 @@
 #pragma once
 
 #include "core/base/warnings.h"
-#include "core/reader/raw_scene.h"
 #include "core/reader/xml/objects.h"
+#include "core/reader/xml/raw_scene.h"
 
 #include <map>
 

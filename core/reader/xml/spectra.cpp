@@ -2,8 +2,8 @@
 
 #include "core/base/input_file.h"
 #include "core/base/printable.h"
-#include "core/colour/blackbody.h"
-#include "core/colour/cie.h"
+#include "core/image/colour/blackbody.h"
+#include "core/image/colour/cie.h"
 #include "core/reader/xml/numbers.h"
 #include "core/reader/xml/properties.h"
 

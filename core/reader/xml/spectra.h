@@ -2,7 +2,7 @@
 // `uniform`.
 #pragma once
 
-#include "core/colour/spectrum_to_rgb.h"
+#include "core/image/colour/spectrum_to_rgb.h"
 #include "core/reader/xml/document.h"
 
 namespace neumann::reader {

@@ -1,6 +1,6 @@
 #include "core/image/module/write/encoders.h"
 
-#include "core/image/module/picture_codec.h"
+#include "core/image/picture_codec.h"
 
 extern "C" const neumann::PictureWriter* neumann_picture_writer() {
     using namespace neumann::encoders;

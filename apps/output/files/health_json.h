@@ -1,0 +1,28 @@
+// The health part of run.json, and messages about problems.
+#pragma once
+
+#include "operators/render/methods/bounce_series.h"
+
+#include <nlohmann/json.hpp>
+
+#include <string>
+#include <vector>
+
+namespace neumann {
+
+// Messages, one line each, that say what is wrong and where. `folder`: named in the command that replays it.
+std::vector<std::string> complaints(const Health& health, const Scene& scene, const std::string& folder);
+
+nlohmann::ordered_json as_json(const Health& health, const Scene& scene, const std::string& folder);
+
+// The same for fields on patches, which have no samples to replay.
+std::vector<std::string> complaints(const EnergyBalance& power);
+nlohmann::ordered_json as_json(const EnergyBalance& power);
+
+// The health of paths or fields; null if the render was not checked.
+nlohmann::ordered_json health_json(const BounceSeries& series, const Scene& scene, const std::string& folder);
+
+// A shape's origin: "shape 'cube' of bsdf 'diffuse', scene.xml:12:5".
+std::string name_of_shape(const Scene& scene, std::uint32_t shape);
+
+}  // namespace neumann

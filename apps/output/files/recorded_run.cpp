@@ -1,0 +1,153 @@
+#include "apps/output/files/recorded_run.h"
+
+#include "apps/output/files/json_text.h"
+#include "apps/output/files/method_json.h"
+#include "core/base/error.h"
+#include "core/base/input_file.h"
+#include "core/reader/read_scene.h"
+#include "operators/paths/walk/path_group.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <fstream>
+
+namespace neumann {
+
+using Json = nlohmann::ordered_json;
+
+RecordedRun recorded_run(const Json& json, const std::string& folder) {
+    const Json &options = json.at("options"), &samples = json.at("samples");
+    RecordedRun run;
+    run.folder = folder;
+    RecordedRender& render = run.render;
+    render.method = method_from_json(options);
+    if (const std::string why = why_no_replay(render.method); !why.empty())
+        throw InputError(fmt::format("{}: --method {} has no paths to replay: {}", folder, name_of(render.method), why));
+    run.scene = file_named_in_json(json.at("scene").at("file"));
+    json.at("scene").at("definitions").get_to(run.definitions);
+    run.lenient = json.at("scene").contains("replaced");
+    run.hash = json.at("scene").at("hash");
+    run.version = json.at("program").at("version");
+    render.seed = options.at("seed");
+    render.bounces = options.at("bounces");
+    render.rest_probability = json.at("rest").value("probability_of_being_sampled", 0.0);
+    render.replicate_size = samples.at("replicate_size");
+    run.samples = samples.at("per_pixel");
+    run.first = samples.value("first_replicate", std::uint64_t{0}) * render.replicate_size;
+    if (samples.contains("merged"))
+        for (const Json& range : samples.at("merged"))
+            run.merged.push_back({range.at("seed"), range.at("first_replicate"), range.at("replicates")});
+    run.named = json.at("health").at("samples");
+    return run;
+}
+
+RecordedRun read_recorded_run(const std::string& folder) {
+    if (!std::filesystem::is_directory(folder)) throw InputError(folder + ": is not a folder; expected that of a render");
+    const std::string path = (std::filesystem::path(folder) / "run.json").string();
+    std::ifstream file = open_if_there(path);
+    if (!file) throw InputError(path + ": cannot be read; expected the folder of a finished render");
+    try {
+        return recorded_run(Json::parse(file), folder);
+    } catch (const Json::exception& e) {
+        throw InputError(fmt::format("{}: is not a run.json of this program's renders: {}", path, e.what()));
+    }
+}
+
+Scene read_scene_of(const RecordedRun& run) {
+    if (!std::filesystem::exists(run.scene))
+        throw InputError(fmt::format("{}: the scene of {} is not there; the name is relative to where the render was started",
+                                     run.scene, run.folder));
+    Scene scene = read_scene(run.scene, run.definitions, {.lenient = run.lenient});
+    if (scene.hash != run.hash)
+        fmt::print(stderr, "warning: {} has changed since {} was rendered: this is not the sample that was rendered\n", run.scene,
+                   run.folder);
+    if (run.version != NEUMANN_VERSION)
+        fmt::print(stderr, "warning: {} was rendered by version {}, and this is {}\n", run.folder, run.version, NEUMANN_VERSION);
+    return scene;
+}
+
+std::uint32_t pixel_number(const Film& film, int x, int y, const char* option) {
+    const std::optional<std::uint32_t> number = number_of(film, {x, y});
+    if (!number)
+        throw InputError(fmt::format("{} {},{}: the picture has x from {} to {} and y from {} to {}", option, x, y, film.crop_x,
+                                     film.crop_x + film.crop_width - 1, film.crop_y, film.crop_y + film.crop_height - 1));
+    return *number;
+}
+
+std::vector<ReportedSample> reported_samples(const RecordedRun& run, const Film& film) {
+    std::vector<ReportedSample> all;
+    try {
+        for (const Json& sample : run.named) {
+            const Json& pixel = sample.contains("pixel_of_path") ? sample.at("pixel_of_path") : sample.at("pixel");
+            all.push_back({{pixel_number(film, pixel.at(0), pixel.at(1), "a named sample's pixel"), sample.at("sample")},
+                           fmt::format("bounce {}: {}", sample.at("bounce").get<int>(), sample.at("why").get<std::string>())});
+        }
+    } catch (const Json::exception& e) {
+        throw InputError(fmt::format("{}/run.json: its health report is damaged: {}", run.folder, e.what()));
+    }
+    return all;
+}
+
+namespace {
+
+void expect_sample(std::uint64_t sample, std::uint64_t first, std::uint64_t count) {
+    if (sample < first || sample - first >= count)
+        throw InputError(
+            fmt::format("--sample {}: expected {} to {}, as many as the render has a pixel", sample, first, first + count - 1));
+}
+
+}  // namespace
+
+const RecordedSamples& RecordedSamplers::of_seed(std::size_t i) {
+    auto& samples = made_[i];
+    if (!samples) {
+        RecordedRender render = run_.render;
+        if (!run_.merged.empty()) render.seed = run_.merged[i].seed;
+        samples = std::make_unique<const RecordedSamples>(scene_, render);
+    }
+    return *samples;
+}
+
+RecordedSamplers::Place RecordedSamplers::find(SampleName name) {
+    const std::uint32_t pixel = name.pixel;
+    const std::uint64_t asked = name.sample;
+    if (!run_.merged.empty() && std::holds_alternative<method::Mixed>(run_.render.method))
+        throw InputError(
+            "a mixture's samples have their numbers in the render of one seed; expected one of those that were merged");
+    // Where pixels have as many samples each, before a pilot takes its time.
+    if (!adaptive_of(run_.render.method) && !std::holds_alternative<method::Mixed>(run_.render.method))
+        expect_sample(asked, run_.first, run_.samples);
+    for (std::size_t i = 0; i < run_.merged.size(); ++i) {
+        const SeedRange& range = run_.merged[i];
+        const RecordedSamples& samples = of_seed(i);
+        const std::uint64_t size = samples.sampler().layout().size(pixel);
+        if (name.sample < range.count * size) return {samples, {pixel, name.sample + range.first * size}};
+        name.sample -= range.count * size;
+    }
+    if (!run_.merged.empty()) expect_sample(asked, 0, asked - name.sample);
+    const RecordedSamples& samples = of_seed(0);
+    const std::uint64_t replicates = run_.samples / run_.render.replicate_size, first = run_.first / run_.render.replicate_size;
+    if (const MixedSampler* mixed = samples.sampler().mixed()) {
+        const auto& [sampler, name_there, part, method] = mixed->part_of(name);
+        const std::uint64_t of_part = sampler.layout().size(pixel), n = replicates * of_part, begin = first * of_part;
+        if (name_there.sample < begin || name_there.sample - begin >= n)
+            throw InputError(fmt::format("--sample {}: {} has {} samples in this pixel; expected {} j + {} with j from {} on",
+                                         asked, method, n, mixed->parts(), part, begin));
+        return {samples, name};
+    }
+    const std::uint64_t size = samples.sampler().layout().size(pixel);
+    expect_sample(name.sample, first * size, replicates * size);
+    return {samples, name};
+}
+
+std::vector<ReplicatesOf> RecordedSamplers::replicates() {
+    const std::uint32_t size = run_.render.replicate_size;
+    if (run_.merged.empty()) return {{of_seed(0).sampler(), run_.first / size, run_.samples / size}};
+    std::vector<ReplicatesOf> all;
+    for (std::size_t i = 0; i < run_.merged.size(); ++i)
+        all.push_back({of_seed(i).sampler(), run_.merged[i].first, run_.merged[i].count});
+    return all;
+}
+
+}  // namespace neumann

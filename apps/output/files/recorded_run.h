@@ -1,0 +1,71 @@
+// A render as its run.json tells it, and its samples traced again.
+#pragma once
+
+#include "operators/render/from_paths/rendered_series.h"
+#include "operators/render/methods/recorded_render.h"
+#include "operators/render/report/pixel_history.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace neumann {
+
+struct RecordedRun {
+    std::string folder, scene, hash, version;
+    std::map<std::string, std::string> definitions;
+    bool lenient = false;
+    RecordedRender render;
+    std::uint64_t first = 0, samples = 0;  // of a part, the first is above 0
+    std::vector<SeedRange> merged;         // where the samples are of several seeds
+    nlohmann::ordered_json named;          // the samples that the health report names
+};
+
+// Throws InputError if there is no such folder or run.json, and if the method has no paths.
+RecordedRun read_recorded_run(const std::string& folder);
+// Of a run.json that is not on disk yet; `folder`: for messages.
+RecordedRun recorded_run(const nlohmann::ordered_json& run, const std::string& folder);
+
+// Its scene. Warns on stderr if that has changed since, or if another version rendered it.
+Scene read_scene_of(const RecordedRun& run);
+
+// The number of a pixel. Throws InputError, which begins with the option, if it is not in the picture.
+std::uint32_t pixel_number(const Film& film, int x, int y, const char* option);
+
+// A sample that the health report names, and why.
+struct ReportedSample {
+    SampleName name;
+    std::string why;  // "bounce 3: the largest sample of …"
+};
+std::vector<ReportedSample> reported_samples(const RecordedRun& run, const Film& film);
+
+// The samplers of a run, made when they are needed.
+class RecordedSamplers {
+public:
+    // The scene and the run must outlive this object.
+    RecordedSamplers(const Scene& scene, const RecordedRun& run) : scene_(scene), run_(run) {}
+
+    // The sampler that has a sample, and its name there; of a merged render, that of the seed that has it. Throws InputError if the
+    // run has no such sample.
+    struct Place {
+        const RecordedSamples& samples;
+        SampleName name;
+    };
+    Place find(SampleName name);
+    // All replicates of the run.
+    std::vector<ReplicatesOf> replicates();
+
+private:
+    // Of seed number i; of the only one, 0.
+    const RecordedSamples& of_seed(std::size_t i);
+
+    const Scene& scene_;
+    const RecordedRun& run_;
+    std::map<std::size_t, std::unique_ptr<const RecordedSamples>> made_;
+};
+
+}  // namespace neumann

@@ -1,0 +1,49 @@
+// The folder of a finished render, read again.
+#pragma once
+
+#include "apps/output/files/shown_series.h"
+#include "core/image/pixel_estimate.h"
+#include "operators/render/report/series_report.h"
+
+#include <nlohmann/json.hpp>
+
+#include <compare>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace neumann {
+
+class RenderedFolder {
+public:
+    struct Size {
+        int width, height;
+        auto operator<=>(const Size&) const = default;
+    };
+
+    // Throws InputError, which begins with the file: no such file, or a run.json that lacks something that the page shows.
+    explicit RenderedFolder(const std::string& folder);
+
+    const std::filesystem::path& path() const { return path_; }
+    const nlohmann::ordered_json& run() const { return run_; }
+    Size size() const { return size_; }
+    std::size_t bounces() const { return run_.at("bounces").size(); }
+    bool has_rest() const;
+    std::size_t pictures() const { return bounces() + (has_rest() ? 1 : 0); }
+
+    // The pictures, which are read when they are asked for. Throws InputError: not there, damaged, of another size.
+    ShownSeries series() const;
+    // Of one of these files.
+    PixelEstimate picture(const std::string& name) const;
+    // The text of a file; nothing if there is none.
+    std::optional<std::string> text(const std::string& name) const;
+    // What series.csv tells; nothing if run.json is of a version that did not keep all of it.
+    std::optional<SeriesReport> report() const;
+
+private:
+    std::filesystem::path path_;
+    nlohmann::ordered_json run_;
+    Size size_;
+};
+
+}  // namespace neumann

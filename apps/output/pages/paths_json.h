@@ -1,0 +1,15 @@
+// The paths of pixels for the page: their rays on the film and from above, what they bring, and how the pixels' means came about.
+#pragma once
+
+#include "apps/output/files/chosen_pixels.h"
+#include "apps/output/files/recorded_run.h"
+
+#include <nlohmann/json.hpp>
+
+namespace neumann {
+
+// "outline" (of the scene, from above), "above" (the axis), "pixels": each with "pixel", "picture" (its place in the picture),
+// "count" (samples), "method", "history" or "why_no_history", and "paths". Throws InputError for a pixel outside the picture.
+nlohmann::ordered_json paths_json(const RecordedRun& run, const Scene& scene, const ChosenPixels& chosen);
+
+}  // namespace neumann

@@ -1,0 +1,56 @@
+// A finished render, and the files that `neumann render` writes for it.
+#pragma once
+
+#include "apps/output/files/chosen_files.h"
+#include "apps/output/files/chosen_pixels.h"
+#include "apps/output/files/output_folder.h"
+#include "core/base/processes/processes.h"
+#include "operators/render/methods/bounce_series.h"
+
+#include <nlohmann/json.hpp>
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace neumann {
+
+struct Rendering {
+    std::string scene_file, command_line;
+    nlohmann::ordered_json options;  // as typed, by name; null where they were not typed
+    std::map<std::string, std::string> definitions;
+    std::shared_ptr<const Scene> scene;
+    BounceSeries series;
+    double seconds = 0.0;  // total time before writing
+    ChosenFiles files = {};
+    ChosenPixels paths = {};  // which the page shows
+    // Of the processes that rendered it together: how many, and what the first one sent and received.
+    int processes = 1;
+    Processes::Traffic traffic = {};
+
+    // Of the scene and of the render.
+    Warnings warnings() const;
+    // Messages about problems, one line each; `folder`: named in the command that replays them.
+    std::vector<std::string> complaints(const std::string& folder) const;
+};
+
+struct WrittenRendering {
+    Warnings warnings;  // including those about the files
+    nlohmann::ordered_json run;
+    std::string page_data;     // what index.html shows; empty if it was not chosen
+    std::string why_no_paths;  // on a page that should have some; empty otherwise
+};
+
+// Writes the chosen files and commits them. Throws RunError if not everything can be written.
+WrittenRendering write_rendering(const Rendering& rendering, OutputFolder& folder);
+
+// What a page shows of a render whose files are not written.
+std::string page_data(const Rendering& rendering, bool is_under_way);
+
+// For use after such an error, so that the samples are not lost: writes everything into a new temporary folder if there is room,
+// and otherwise as many pictures of bounces as fit into a new folder beside `output`. Returns a line for the user that says what
+// was done.
+std::string keep_elsewhere(const Rendering& rendering, const std::string& output);
+
+}  // namespace neumann

@@ -1,0 +1,58 @@
+// The results of a study so far.
+#pragma once
+
+#include "apps/output/study/study_reference.h"
+#include "operators/experiments/study/compared_crops.h"
+#include "operators/experiments/study/verdict.h"
+
+#include <functional>
+#include <memory>
+
+namespace neumann {
+
+// Called with what is being done, and with the fraction of all runs that is done.
+using StudyStatus = std::function<void(const std::string& what, double fraction)>;
+
+struct StudyData {
+    const StudyRequest& request;
+    const std::vector<StudyMethod>& methods;
+    const Scene& scene;
+    const Pilot& pilot;
+    int bounces = 0;
+    StudyPlan plan;
+    StudyReference reference;
+    double scene_seconds = 0.0, pilot_seconds = 0.0;
+    bool peak_is_of_run = true;         // the peak memory is of each run; otherwise of all runs so far
+    std::vector<StudyPoint> points;     // those with at least two repeats
+    std::vector<std::string> left_out;  // methods that refuse the scene, and why, where none were named
+    std::vector<ComparedCrop> crops;
+    bool complete = false;
+
+    std::size_t pictures() const { return static_cast<std::size_t>(bounces) + 2; }               // the last is the sum
+    std::size_t runs() const { return request.repeats * plan.budgets.size() * methods.size(); }  // in all
+    std::string picture_name(std::size_t picture) const;                                         // "0" … "sum"
+    std::string picture_title(std::size_t picture) const;  // "bounce 0" … "the sum of bounces 0 to 4"
+    std::vector<std::string> warnings() const;
+    std::size_t fewest_repeats() const;  // of any point; fewer than were asked for where the study was cut off
+};
+
+struct StudyEnd {
+    bool complete;
+    std::size_t done, runs;
+};
+// Runs the study in request.output, and calls `found` with the results, if there are any. Throws InputError and RunError.
+StudyEnd run_study(
+    StudyRequest request, const Scene& scene, double scene_seconds, const StudyStatus& status,
+    const std::function<void(const StudyData&, const std::vector<StudiedPicture>&, const nlohmann::ordered_json&)>& found);
+
+std::string study_csv(const StudyData& data);
+nlohmann::ordered_json study_json(const StudyData& data, const std::vector<StudiedPicture>& pictures);
+void print_study(const StudyData& data, const std::vector<StudiedPicture>& pictures);
+std::string study_page(const StudyData& data, const nlohmann::ordered_json& study);
+// "In bounce 1 matrix is 160 times as fast as walk (140 to 180)."
+std::string verdict_text(const StudyData& data, std::size_t picture, const StudyVerdict& verdict);
+
+// The command line that renders the pictures of a run again.
+std::string repeating_command(const StudyData& data, const StudyRun& run);
+
+}  // namespace neumann

@@ -1,0 +1,15 @@
+// Makes the runs of a study, and keeps them in its journal.
+#pragma once
+
+#include "apps/output/files/output_folder.h"
+#include "apps/output/study/study_journal.h"
+
+namespace neumann {
+
+// Throws InputError if the pictures of all runs, which are kept until the end, do not fit into the folder.
+void expect_disk_space(const StudyData& data, const std::filesystem::path& folder);
+
+// Goes on until everything is done or it is interrupted. What there is of a long run is in the folder while it is under way.
+void run_all(StudyData& data, StudyJournal& journal, OutputFolder& folder, const StudyStatus& status);
+
+}  // namespace neumann

@@ -1,0 +1,40 @@
+// What there is of a study's present run, or of its reference, while that is rendered.
+#pragma once
+
+#include "apps/output/files/checkpoints.h"
+#include "apps/output/files/output_folder.h"
+#include "apps/output/study/study_request.h"
+#include "core/scene/scene.h"
+
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+#include <optional>
+
+namespace neumann {
+
+class StudySaving {
+public:
+    // `run`: its number, or "reference".
+    StudySaving(OutputFolder& folder, const nlohmann::ordered_json& run, const Scene& scene, const StudyRequest& request)
+        : folder_(folder),
+          options_{{"run", run}},
+          checkpoints_(folder, {options_, scene.hash}, "the same command with --resume", request.checkpoint, false,
+                       [](const std::string&) {}) {}
+
+    // Whether the folder has nothing of another run.
+    bool has_room() const { return !std::filesystem::exists(folder_.saved()) || is_there(); }
+    // It goes on with what is there of it from before the study was cut off. Refers to this object.
+    Saving saving() { return checkpoints_.saving(is_there() ? std::optional(read_saved_render(folder_.saved())) : std::nullopt); }
+
+private:
+    bool is_there() const {
+        return std::filesystem::exists(folder_.saved()) && request_in_file(folder_.saved()).options == options_;
+    }
+
+    OutputFolder& folder_;
+    nlohmann::ordered_json options_;
+    Checkpoints checkpoints_;
+};
+
+}  // namespace neumann

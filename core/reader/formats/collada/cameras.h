@@ -1,0 +1,14 @@
+// The camera of the scene.
+#pragma once
+
+#include "core/geometry/bounds.h"
+#include "core/reader/formats/collada/import.h"
+#include "core/reader/formats/collada/nodes.h"
+
+namespace neumann::reader::collada {
+
+// Adds a <sensor>: the first camera, or a view of the whole scene, of these bounds. -D sets width, height and spp, and camera, its
+// matrix. `up`: the file's up axis.
+void add_camera(const std::vector<Instance>& cameras, const Bounds& scene, int up, const Import& import);
+
+}  // namespace neumann::reader::collada

@@ -1,0 +1,56 @@
+// The meshes of a glTF file as <shape>s, and the materials on them.
+#pragma once
+
+#include "core/geometry/bounds.h"
+#include "core/reader/formats/gltf/nodes.h"
+#include "core/reader/formats/gltf/primitive.h"
+#include "core/reader/xml/raw_scene.h"
+
+#include <map>
+#include <memory>
+#include <optional>
+
+namespace neumann::reader::gltf {
+
+class Shapes {
+public:
+    Shapes(JsonObject& root, Accessors& accessors, Pictures& pictures, FilesInMemory& in_memory);
+
+    // Adds a mesh, wherever it stands, and the materials that are not there yet to the scene. A mesh that stands in several places
+    // becomes a group and instances of it; what emits becomes copies.
+    void add(Element& scene, std::size_t mesh, const std::vector<Placed>& places);
+
+    const Bounds& bounds() const { return bounds_; }
+
+private:
+    // A mesh of one material.
+    struct Part {
+        Location place;
+        std::string name, filename, bsdf;
+        const Material* material;
+        std::shared_ptr<const MeshFile> file;
+    };
+
+    std::vector<Part> read_parts(Element& scene, std::size_t mesh);
+    const Material& material_of(JsonObject& primitive);
+    std::string bsdf_of(Element& scene, const Material& material, const OnMesh& mesh);
+    std::string add_file(const std::string& name, std::shared_ptr<const MeshFile> file);
+    // Nothing, with a warning, where a map without an inverse leaves no area.
+    std::optional<Element> make_shape(const Part& part, const Placed* placed);
+    void expect_memory_for(const MeshFile& file, const Location& place);
+
+    Notes& notes_;
+    JsonList meshes_, materials_;
+    Textures textures_;
+    Accessors& accessors_;
+    Pictures& pictures_;
+    FilesInMemory& in_memory_;
+    Names mesh_names_, ids_;
+    std::map<std::size_t, std::unique_ptr<const Material>> known_materials_;  // null: has been told
+    const Material default_material_;
+    std::map<std::pair<const Material*, OnMesh>, std::string> bsdfs_;  // ids; empty: has been told
+    Bounds bounds_;
+    double triangles_ = 0.0;
+};
+
+}  // namespace neumann::reader::gltf

@@ -1,0 +1,40 @@
+// What a material says of its textures: which picture, at which texture coordinates.
+#pragma once
+
+#include "core/reader/formats/gltf/pictures.h"
+#include "core/reader/formats/json_object.h"
+#include "core/reader/xml/element.h"
+
+#include <string>
+
+namespace neumann::reader::gltf {
+
+struct Texture {
+    Location place = {};
+    std::size_t image = 0;
+    int coordinates = 0;  // of TEXCOORD_0 and so on
+    Mat4 to_uv{1.0};
+    std::string wrap = "repeat";
+    bool is_nearest = false;
+    double amount = 1.0;  // `scale` of a normal texture
+};
+
+class Textures {
+public:
+    Textures(JsonObject& root, const Pictures& pictures)
+        : textures_(root.list("textures")), samplers_(root.list("samplers")), images_(pictures.list()) {}
+
+    // The texture that a property asks for, or nothing; what is wrong with it is told.
+    std::optional<Texture> read(JsonObject& parent, const std::string& name) const;
+
+private:
+    std::optional<Texture> read(JsonObject info) const;
+    void read_sampler(JsonObject sampler, Texture& texture) const;
+
+    JsonList textures_, samplers_, images_;
+};
+
+// <texture type="bitmap"> of a picture in memory; `raw`: numbers, not colours.
+Element make_bitmap(const Texture& texture, const std::string& name, const std::string& filename, bool raw);
+
+}  // namespace neumann::reader::gltf

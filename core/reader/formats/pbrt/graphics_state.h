@@ -1,0 +1,21 @@
+// What AttributeBegin and AttributeEnd save and restore.
+#pragma once
+
+#include "core/reader/formats/pbrt/pbrt_scene.h"
+
+#include <map>
+#include <memory>
+
+namespace neumann::reader::pbrt {
+
+struct GraphicsState {
+    Mat4 to_world{1.0};  // the current transformation matrix
+    bool moves_end_only = false;  // after ActiveTransform EndTime: what follows changes where things are when the shutter closes
+    bool reversed = false;
+    MaterialUse material = {};
+    std::optional<std::size_t> light = {};
+    // The parameters that directives Attribute give to all shapes, lights and so on; shared until they change.
+    std::map<std::string, std::shared_ptr<const std::vector<Parameter>>> defaults = {};
+};
+
+}  // namespace neumann::reader::pbrt

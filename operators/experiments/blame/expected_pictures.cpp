@@ -1,0 +1,64 @@
+#include "operators/experiments/blame/expected_pictures.h"
+
+#include "operators/render/methods/render.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace neumann {
+
+namespace {
+
+// For what the mistakes make of the scene: some ten microseconds each.
+constexpr double most_paths = 4e6;
+
+}  // namespace
+
+ExpectedPictures::ExpectedPictures(Scene scene, std::optional<std::uint64_t> samples, double seconds, std::uint64_t seed,
+                                   Watch watch)
+    : scene_(std::move(scene)), samples_(samples), seconds_(seconds), seed_(seed), watch_(std::move(watch)) {}
+
+std::shared_ptr<const BounceSeries> ExpectedPictures::ours(int bounces) {
+    if (ours_ && ours_->bounces() >= bounces) return ours_;
+    Goal goal;
+    goal.bounces = bounces;
+    goal.seed = seed_;
+    goal.only_pictures = true;
+    if (samples_)
+        goal.samples = *samples_;
+    else
+        goal.seconds = seconds_;
+    method::Walk walk;
+    walk.sampler = SamplerKind::independent;
+    ours_ = std::make_shared<const BounceSeries>(render(scene_, walk, goal, watch_));
+    if (ours_->outcome == Outcome::interrupted) throw Stopped();
+    return ours_;
+}
+
+int ExpectedPictures::paths_a_pixel() const {
+    const double pixels = static_cast<double>(scene_.film.crop_width) * scene_.film.crop_height;
+    return static_cast<int>(
+        std::clamp(most_paths / pixels, 16.0, static_cast<double>(std::max<std::uint64_t>(ours_ ? ours_->samples : 0, 16))));
+}
+
+template <class T, class Make>
+std::shared_ptr<const T> ExpectedPictures::find_or_make(std::vector<Made<T>>& all, const Ranges& ranges, const Make& make) {
+    const auto known = std::ranges::find(all, ranges, &Made<T>::ranges);
+    if (known != all.end()) return known->pictures;
+    if (!keeps_all_) all.clear();
+    all.push_back({ranges, std::make_shared<const T>(make())});
+    return all.back().pictures;
+}
+
+std::shared_ptr<const std::vector<WrongTerms>> ExpectedPictures::wrong(const Ranges& ranges) {
+    return find_or_make(wrong_, ranges, [&] { return wrong_terms(scene_, ranges, paths_a_pixel(), seed_ + 1, watch_); });
+}
+
+std::shared_ptr<const std::vector<WrongPictures>> ExpectedPictures::without_techniques(const Ranges& ranges) {
+    // A bidirectional path takes several times as long.
+    const auto samples = static_cast<std::uint64_t>(paths_a_pixel() / 4);
+    return find_or_make(without_techniques_, ranges,
+                        [&] { return neumann::without_techniques(scene_, ranges, samples, seed_ + 2, watch_); });
+}
+
+}  // namespace neumann

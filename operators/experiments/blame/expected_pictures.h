@@ -1,0 +1,56 @@
+// What pictures of a scene are compared with: our own terms, and what mistakes make of them. Each is rendered when it is first
+// asked for, so that the pictures of several renderers share them.
+#pragma once
+
+#include "core/scene/scene.h"
+#include "operators/experiments/blame/path_mistakes.h"
+#include "operators/experiments/blame/technique_mistakes.h"
+#include "operators/render/methods/bounce_series.h"
+#include "operators/watch.h"
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace neumann {
+
+class ExpectedPictures {
+public:
+    using Ranges = std::vector<BounceRange>;
+
+    // `samples` a pixel of our own terms, or those of so many seconds. Our samples are independent of each other, as those of most
+    // renderers are: their variance then is ours, times a number.
+    ExpectedPictures(Scene scene, std::optional<std::uint64_t> samples, double seconds, std::uint64_t seed, Watch watch = {});
+
+    const Scene& scene() const { return scene_; }
+    // Bounces 0 … `bounces` at least. All functions throw Stopped.
+    std::shared_ptr<const BounceSeries> ours(int bounces);
+    std::shared_ptr<const std::vector<WrongTerms>> wrong(const Ranges& ranges);
+    int paths_a_pixel() const;  // of these
+    std::shared_ptr<const std::vector<WrongPictures>> without_techniques(const Ranges& ranges);
+
+    // Pictures of mistakes are large: all but the last that were asked for are thrown away, unless they are kept for others.
+    void keep_all() { keeps_all_ = true; }
+
+private:
+    template <class T>
+    struct Made {
+        Ranges ranges;
+        std::shared_ptr<const T> pictures;
+    };
+    template <class T, class Make>
+    std::shared_ptr<const T> find_or_make(std::vector<Made<T>>& all, const Ranges& ranges, const Make& make);
+
+    Scene scene_;
+    std::optional<std::uint64_t> samples_;
+    double seconds_;
+    std::uint64_t seed_;
+    Watch watch_;
+    bool keeps_all_ = false;
+    std::shared_ptr<const BounceSeries> ours_;
+    std::vector<Made<std::vector<WrongTerms>>> wrong_;
+    std::vector<Made<std::vector<WrongPictures>>> without_techniques_;
+};
+
+}  // namespace neumann

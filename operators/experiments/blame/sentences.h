@@ -1,0 +1,15 @@
+// A verdict in three sentences: which bounce differs first and by how much, what that looks like, and where it is.
+#pragma once
+
+#include "core/scene/scene.h"
+#include "operators/experiments/blame/blame.h"
+
+#include <string>
+#include <vector>
+
+namespace neumann {
+
+// With another where depths seem to be counted otherwise, and one where their noise had to be guessed.
+std::vector<std::string> sentences_about(const Blame& blame, const Scene& scene);
+
+}  // namespace neumann

@@ -1,0 +1,54 @@
+// Traces rows of T: the unknowns that the rays of a facet see.
+#pragma once
+
+#include "operators/algebra/agreement.h"
+#include "operators/fields/matrix/facet_rays.h"
+#include "operators/fields/matrix/kept_rows.h"
+#include "operators/fields/patches/patch_space.h"
+#include "operators/watch.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <functional>
+#include <span>
+
+namespace neumann {
+
+// A ray that meets a surface without unknowns.
+struct BlindRay {
+    std::uint32_t facet, number;  // of the facet's rays
+    std::uint32_t from;           // the unknown in whose cell of directions the ray lies
+    double share;                 // of the ray in the mean over that cell
+    const Sight& sight;
+};
+
+// The number of a facet's rays, where `rays` per facet were asked for: facets with more cells of directions than that have one per
+// cell.
+inline std::uint32_t rays_of(const Facet& facet, std::uint32_t rays) { return std::max(rays, facet.cells.size()); }
+
+// The rows of some facets: that of facets[i] has places first_ray[i] … first_ray[i + 1] − 1.
+struct RowsToTrace {
+    const PatchSpace& space;
+    std::uint32_t rays;  // per facet; a power of two
+    std::uint64_t seed;
+    std::span<const std::uint32_t> facets;
+    std::span<const std::size_t> first_ray;
+    bool rough = false;  // as Geometry::rough_hits()
+};
+
+// Where and how rows are traced.
+struct RowTracing {
+    const Watch& watch;
+    const Agreement& others;  // who trace theirs at the same time
+    bool are_shared;          // whether there are any
+    // Called for the rays of a facet in order, and for those of other facets at the same time.
+    std::function<void(const BlindRay&)> on_blind_ray = {};
+    KeptRows* kept = nullptr;  // of which no blind rays are known
+};
+
+// Throws Stopped, on all processes, if `watch` stops one; what was traced is kept then, if there is where. Throws KeptRowsError, on
+// all,
+// if the kept rows of one are not those that are traced here.
+void trace_rows(const RowsToTrace& rows, const RowTracing& how, std::uint32_t* seen);
+
+}  // namespace neumann

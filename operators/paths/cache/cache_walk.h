@@ -1,0 +1,38 @@
+// Walks that end where an irradiance cache is read: those from the camera, and the rays of the records themselves. A walk goes on
+// from what is not diffuse, and from diffuse surfaces where no record stands nearby. At the first vertex x where one does, it asks
+// for direct light as other walks do (ask_light.h) and reads
+//
+//     K^{k+1} Le (x, ωo) = ρ(x)/π E_k(x),   E_k = ∫ (T K^k Le) cosθ dω,   k ≥ 1
+//
+// so that a record of bounce k, read by a walk after b reflections, that at x among them, belongs to bounce b + k. The rays of
+// records read records: E_k is made of direct light and of E_{k−1}, as K^i Le = K (K^{i−1} Le).
+#pragma once
+
+#include "operators/paths/walk/plain_walk.h"
+
+#include <optional>
+
+namespace neumann {
+
+// ρ/π on a side, if light is read there.
+inline std::optional<Rgb> diffuse_reflection(const SurfaceSide& side) {
+    const auto* diffuse = std::get_if<Diffuse>(side.bsdf);
+    return diffuse ? std::optional(diffuse->reflectance(side.p) * inv_pi) : std::nullopt;
+}
+
+// plain_walk() where reads(i, walker, normal, weight, b), with the weight β ρ/π of the irradiance that is read at the walker's
+// vertex, returns whether it was.
+template <class Sampler, class Reads, class Find, class Observer = NoObserver>
+void walk_to_records(const Scene& scene, const DirectLightSampler& direct, const WalkSettings& settings,
+                     std::span<Sampler> samplers, PlainWalkers& walkers, std::span<std::uint64_t> rays, std::uint64_t& given_up,
+                     const Reads& reads, const Find& find, const Observer& observer = {}) {
+    plain_walk(
+        scene, direct, settings, samplers, walkers, rays, given_up, [](int) {},
+        [&](std::uint32_t i, const Walker& w, const SurfaceSide& side, int bounce) {
+            const auto reflection = diffuse_reflection(side);
+            return reflection && reads(i, w, side.p.frame.n, w.beta * *reflection, bounce);
+        },
+        find, observer);
+}
+
+}  // namespace neumann

@@ -1,0 +1,78 @@
+// Where the records of an irradiance cache stand, and how far from there they are read. The places are chosen once, before the
+// first sample: all passes fill the same ones, so that their spread is that of the samples alone.
+//
+// A record is read at y with normal n, e < 1, with the weight 1 − e (after Ward and others, 1988):
+//
+//     e = |y − x| / r + √(1 − n·n_x) / s
+//
+// It says E + (n·t) ∂E/∂n + (y − x)·∂E/∂x (hemisphere_cells.h). Its radius r is, with R the harmonic mean of the distances of what
+// the record sees, H the second derivatives of E along the surface, λ their eigenvalues, and ℓ the radius of the disk that is usual
+// in the scene:
+//
+//     split-sphere: r = a R,  s = a
+//     Hessian:      r⁴ = 8 a ℓ² E / (|λ1| + |λ2|):  (1/π r²) ∫ ½ uᵀHu ≤ a E where r = ℓ, and alike over r² elsewhere, which gives
+//                   the least sum of errors for the number of records
+//
+// the latter at most R/2, and both at most E / |∂E/∂x|, beyond which what a record says could be below 0.
+#pragma once
+
+#include "core/base/frame.h"
+#include "core/sampling/sampler.h"
+#include "core/scene/scene.h"
+#include "operators/paths/cache/cache_settings.h"
+#include "operators/paths/cache/hemisphere_cells.h"
+#include "operators/watch.h"
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace neumann {
+
+struct Record {
+    SurfacePoint x;
+    Frame frame;  // z: the shading normal on the side that reflects
+    double radius = 0.0;
+    bool is_seen = false;  // by the camera, which reads no others
+};
+
+class RecordPlaces {
+public:
+    // Keeps a reference to the scene. The same for the same scene and seed, on any number of threads, however many bounces are
+    // rendered. Throws InputError if paths from the camera meet no diffuse surface, or if the rays of all records take more than
+    // `memory` bytes; and Stopped if `watch` stops it.
+    RecordPlaces(const Scene& scene, const CacheSettings& settings, SamplerKind sampler, std::uint64_t seed, double memory,
+                 const Watch& watch = {});
+    ~RecordPlaces();
+
+    const CacheSettings& settings() const { return settings_; }
+    const HemisphereCells& cells() const { return cells_; }
+    const std::vector<Record>& records() const { return records_; }
+    std::size_t seen() const { return seen_; }  // the number of records that the camera reads
+    double disk() const { return disk_; }       // ℓ
+    std::uint64_t rays() const { return rays_; }
+
+    struct Near {
+        std::uint32_t record;
+        float error;                  // e
+        std::array<float, 4> offset;  // n and y − x along x and y of its frame
+    };
+    // The records with e < `most` at y, in an order that depends on the records and y alone. `near` is overwritten.
+    void find(const Vec3& y, const Vec3& n, bool only_seen, double most, std::vector<Near>& near) const;
+
+private:
+    class Index;
+    struct Seen;
+    class Placer;
+
+    CacheSettings settings_;
+    HemisphereCells cells_;
+    std::vector<Record> records_;
+    std::unique_ptr<Index> index_;
+    std::size_t seen_ = 0;
+    double disk_ = 0.0, turning_;  // s
+    std::uint64_t rays_ = 0;
+};
+
+}  // namespace neumann

@@ -1,0 +1,22 @@
+// The records of a cache as points to look at: where they stand, what they say, and where on the film the camera sees them.
+#pragma once
+
+#include "operators/paths/cache/record_places.h"
+
+#include <optional>
+#include <vector>
+
+namespace neumann {
+
+struct RecordPoint {
+    Record record;
+    std::vector<Rgb> irradiance;  // E_1 … E_bounces, W·m⁻²
+    std::optional<Vec2> pixel;    // position on the film, as FilmPoint::position; nothing if something is in between, or outside
+};
+
+// All records of a cache, in the order in which they were placed, filled once. Throws InputError as RecordPlaces does, and Stopped.
+// The same on any number of threads.
+std::vector<RecordPoint> record_points(const Scene& scene, const CacheSettings& settings, int bounces, std::uint64_t seed,
+                                       double memory, const Watch& watch = {});
+
+}  // namespace neumann

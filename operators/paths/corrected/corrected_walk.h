@@ -1,0 +1,255 @@
+// Corrected fields: K^k Le by approximate fields f_k and unbiased samples of their errors e_k = K^k Le − f_k, carried by points
+// that all walks share (shared_points.h):
+//
+//     K^i Le = K f_{i−1} + K e_{i−1}
+//     e_i    = (K f_{i−1} − f_i) + K e_{i−1}
+//
+// A walk that leaves a diffuse surface x, mostly towards where the fields are bright, reads f_k at the next one, z, and ends there:
+// one ray is a sample of K f_k for all k. At x it also asks one of the shared points y for its errors:
+//
+//     K e_k (x) = ∫ ρ(x) g(x, y) V(x, y) e_k(y) dA(y),   g of operators/paths/walk/coupling.h
+//
+// g is unbounded where surfaces meet, so points carry only its part below c, min(g, c), and walks carry the rest: at z a walk goes
+// on with probability 1 − c/g, and what it then finds replaces f_k(z). A walk goes on in any case from surfaces that are not
+// diffuse, and to surfaces without fields, and where shading normals look away from it, as g is 0 there: where there are no fields
+// it is the plain walk (operators/paths/walk/walk.h). All is linear in f
+// and in the points' errors, so that nothing depends on the quality of either but the variance.
+#pragma once
+
+#include "core/base/hot.h"
+#include "operators/paths/corrected/approximation.h"
+#include "operators/paths/corrected/diffuse_sides.h"
+#include "operators/paths/corrected/shared_points.h"
+#include "operators/paths/walk/ask_light.h"
+#include "operators/paths/walk/continuation.h"
+#include "operators/paths/walk/coupling.h"
+#include "operators/paths/walk/guided_continuation.h"
+#include "operators/paths/walk/observer.h"
+#include "operators/paths/walk/term_samples.h"
+#include "operators/paths/walk/walk_settings.h"
+
+#include <algorithm>
+#include <span>
+#include <vector>
+
+namespace neumann {
+
+// The samples at the first diffuse vertex of a walk, where more of them help most.
+struct FirstVertex {
+    std::uint32_t lights = 1;      // light samples
+    std::uint32_t directions = 4;  // walks that go on from it
+    std::uint32_t points = 1;      // of these, the walks that also ask a point
+    double clamp = 100.0;          // c, in units of 1 / (area of all sides with fields)
+    double survival = 1.0;         // roulette of the walks that go on instead of reading
+};
+
+struct CorrectedWalker : Walker {
+    std::uint32_t path = 0;   // the camera sample, or the shared point, to which it belongs
+    bool is_split = false;    // it has passed its first diffuse vertex
+    bool reads = false;       // it left a diffuse vertex, so that it may read fields at the next one
+    double directions = 1.0;  // walks for each light sample at its last vertex
+    double clamp = 0.0;       // c there, per scene unit squared
+    double survival = 1.0;    // roulette of the share that goes on
+    // For how many of the walks from its last vertex it asks a shared point; the point, and the weight of its errors.
+    double asks_for = 1.0;
+    std::uint32_t point = 0;
+    Rgb point_weight{0.0};
+};
+
+struct CorrectedWalkers : Together<CorrectedWalker> {
+    std::vector<Sampler> samplers;      // one for each walker
+    std::vector<std::uint32_t> asking;  // walkers whose light sample, or shared point, needs a ray
+    std::vector<std::uint32_t> single, splitting;
+    std::vector<float> fields;
+};
+
+class CorrectedWalk {
+public:
+    // c of walks after their first diffuse vertex, in units of 1 / area.
+    static constexpr double later_clamp = 3.0;
+
+    // Keeps references. `fields`: null if there are none. `points`: null if walks carry all of the error.
+    CorrectedWalk(const Scene& scene, const DirectLightSampler& direct, const WalkSettings& settings, const Approximation& fields,
+                  const SharedPoints* points, const FirstVertex& first)
+        : scene_(scene),
+          direct_(direct),
+          settings_(settings),
+          fields_(fields.fields()),
+          tables_(fields.tables()),
+          points_(points),
+          first_(first),
+          of_area_(fields.area() > 0.0 ? 1.0 / fields.area() : 0.0) {}
+
+    // Samples the terms 1 … N and the rest from walkers that stand at their first vertices (x and wo are set, β is 1), and adds
+    // them to the quantities of their paths. light_sampler(path, l) and sampler_of(path, g) give the samplers of the l-th light
+    // sample and of the g-th walk from the first diffuse vertex.
+    template <class LightSamplers, class Samplers, class Observer = NoObserver>
+    void operator()(CorrectedWalkers& walkers, const LightSamplers& light_sampler, const Samplers& sampler_of, TermSamples& out,
+                    const Observer& observer = {}) const;
+
+private:
+    std::size_t quantities() const { return static_cast<std::size_t>(settings_.bounces) + 2; }
+    bool has_rest() const { return settings_.rest_probability > 0.0; }
+    // R: the next direction, by what the fields say of the light that arrives (guide/direction_tables.h), and the shared point that
+    // is asked along with it. `wanted`: the number of later bounces that have pictures.
+    bool choose_direction(CorrectedWalker& w, int wanted, Sampler& sampler) const {
+        const SurfaceSide side = scene_.materials.side(w.x, w.wo);
+        if (!side.bsdf) return false;
+        w.reads = fields_ && std::holds_alternative<Diffuse>(*side.bsdf);
+        const GuidedContinuation::Vertex vertex = w.reads && wanted > 0
+                                                      ? GuidedContinuation::Vertex(tables_->at(w.x, w.wo, wanted), side.p.frame)
+                                                      : GuidedContinuation::Vertex();
+        const BsdfSample sampled = vertex.sample(side, side.p.frame.to_local(w.wo), sampler);
+        w.point_weight = Rgb(0.0);
+        if (w.reads && points_ && w.asks_for > 0.0) {
+            const SharedPoints::Chosen chosen = points_->choose(w.x.position, side.p.frame.n, w.clamp, sampler.next());
+            w.point = chosen.point;
+            const SharedPoints::Point& y = (*points_)[chosen.point];
+            if (glm::dot(y.shading, w.x.position - y.y.position) > 0.0)
+                w.point_weight = w.beta * std::get<Diffuse>(*side.bsdf).reflectance(side.p) * (w.asks_for * chosen.weight);
+        }
+        w.leave(side, sampled);
+        return true;
+    }
+    // At the hit z of a walk that left a diffuse surface: reads the fields there and ends, or goes on.
+    template <class Found>
+    bool goes_on(CorrectedWalker& w, Sampler& sampler, std::vector<float>& fields, const Found& found) const {
+        const bool front = glm::dot(w.x.normal, w.wo) > 0.0;
+        if (!w.reads || !fields_->covers(w.x, front)) return true;
+        const Vec3 normal = front ? w.x.normal : -w.x.normal;
+        if (fields_->is_smooth(w.x) && !see_alike(scene_.materials, w.x, normal, w.wo)) return true;
+        const double g = coupling(w.from.position, w.from.normal, w.x.position, normal);
+        const double left = g > w.clamp ? 1.0 - w.clamp / g : 0.0;
+        const bool on = left > 0.0 && (left * w.survival >= 1.0 || sampler.next() < left * w.survival);
+        const Rgb weight = on ? w.beta * (1.0 - 1.0 / w.survival) : w.beta;
+        if (!on || w.survival < 1.0) {
+            fields.resize(3 * fields_->size());
+            fields_->read(w.x, front, fields.data());
+            for (std::size_t k = 0; k < fields_->size(); ++k)
+                found(k + 1, weight * Rgb(fields[3 * k], fields[3 * k + 1], fields[3 * k + 2]));
+        }
+        w.beta /= w.survival;
+        return on;
+    }
+
+    const Scene& scene_;
+    const DirectLightSampler& direct_;
+    const WalkSettings& settings_;
+    const FieldRaster* fields_;
+    const DirectionTables* tables_;
+    const SharedPoints* points_;
+    FirstVertex first_;
+    double of_area_;
+};
+
+template <class LightSamplers, class Samplers, class Observer>
+NEUMANN_HOT void CorrectedWalk::operator()(CorrectedWalkers& walkers, const LightSamplers& light_sampler,
+                                           const Samplers& sampler_of, TermSamples& out, const Observer& observer) const {
+    const Geometry& T = scene_.geometry;
+    const Emitters& emitters = scene_.emitters;
+    const Ending ending = settings_.ending();
+    const int N = settings_.bounces;
+
+    // L = Le + K L: apply K once more, then add Le at the next vertex, and read the rest of L there or go on.
+    for (int bounce = 1; ending.reach(bounce, walkers, std::span(walkers.samplers), out.given_up); ++bounce) {
+        const auto q = static_cast<std::size_t>(std::min(bounce, N + 1));
+        // Found after this reflection: light that was then reflected k times before.
+        const auto find_later = [&](std::uint32_t i, std::size_t k, const Rgb& x) {
+            const auto reflected = static_cast<std::size_t>(bounce) + k;
+            if (reflected > static_cast<std::size_t>(N) && !has_rest()) return;
+            const std::size_t quantity = std::min(reflected, quantities() - 1);
+            out.quantities[walkers.walker[i].path * quantities() + quantity] += x;
+            observer.finds(i, quantity, x);
+        };
+        const auto find = [&](std::uint32_t i, const Rgb& x) { find_later(i, 0, x); };
+        const auto ask_lights = [&](const auto& sampler_at) {
+            for (std::size_t question = 0; question < direct_.questions(); ++question) {
+                walkers.keep_if([&](CorrectedWalker& w, std::uint32_t i) {
+                    const SurfaceSide side = scene_.materials.side(w.x, w.wo);
+                    if (!side.bsdf) return false;
+                    choose_question(direct_, question, MaterialContinuation(), w.directions, side, side.p.frame.to_local(w.wo),
+                                    sampler_at(i), w);
+                    return true;
+                });
+                out.rays[q] += answer(scene_, T, direct_, LeftOut(), bounce, walkers, observer, find);
+            }
+        };
+
+        // R at vertices of one walk: sample the lights; at first diffuse vertices, do so more often and split the walk.
+        walkers.single.clear();
+        walkers.splitting.clear();
+        for (const std::uint32_t i : walkers.alive) {
+            CorrectedWalker& w = walkers.walker[i];
+            const Bsdf* bsdf = w.is_split || bounce > N ? nullptr : scene_.materials.side(w.x, w.wo).bsdf;
+            const bool splits = bsdf && std::holds_alternative<Diffuse>(*bsdf);
+            w.directions = splits ? static_cast<double>(first_.directions) / first_.lights : 1.0;
+            w.clamp = points_ ? (splits ? first_.clamp : later_clamp) * of_area_ : 0.0;
+            w.survival = splits ? first_.survival : 1.0;
+            w.asks_for = 1.0;
+            if (splits) w.beta /= static_cast<double>(first_.directions);
+            (splits ? walkers.splitting : walkers.single).push_back(i);
+        }
+        if (!walkers.single.empty()) {
+            walkers.alive = walkers.single;
+            ask_lights([&](std::uint32_t i) -> Sampler& { return walkers.samplers[i]; });
+            walkers.single = walkers.alive;
+        }
+        if (!walkers.splitting.empty()) {
+            walkers.alive = walkers.splitting;
+            for (std::uint32_t l = 0; l < first_.lights; ++l)
+                ask_lights([&](std::uint32_t i) -> Sampler& { return light_sampler(i, l); });
+            for (const std::uint32_t i : walkers.splitting) {
+                walkers.walker[i].is_split = true;
+                for (std::uint32_t g = 0; g < first_.directions; ++g) {
+                    walkers.single.push_back(static_cast<std::uint32_t>(walkers.walker.size()));
+                    walkers.walker.push_back(walkers.walker[i]);
+                    walkers.walker.back().asks_for =
+                        g < first_.points ? static_cast<double>(first_.directions) / first_.points : 0.0;
+                    walkers.samplers.push_back(sampler_of(i, g));
+                }
+            }
+        }
+        walkers.alive = walkers.single;
+
+        // R: choose directions and points; T: which points are seen?
+        walkers.asking.clear();
+        walkers.keep_if([&](CorrectedWalker& w, std::uint32_t i) {
+            if (!choose_direction(w, N - bounce, walkers.samplers[i])) return false;
+            if (!is_black(w.point_weight) && !ending.is_last(bounce)) walkers.asking.push_back(i);
+            return true;
+        });
+        ask_visibility(
+            T, walkers.asking.size(), RayCaster::Rays::any,
+            [&](std::size_t k) {
+                const CorrectedWalker& w = walkers.walker[walkers.asking[k]];
+                return std::pair<const SurfacePoint&, const SurfacePoint&>(w.x, (*points_)[w.point].y);
+            },
+            [&](std::size_t k, bool seen) {
+                const std::uint32_t i = walkers.asking[k];
+                const CorrectedWalker& w = walkers.walker[i];
+                const SurfacePoint& y = (*points_)[w.point].y;
+                observer.joins(i, bounce, w.x, y, seen);
+                if (!seen) return;
+                const Rgb* errors = points_->errors_at(w.point);
+                for (std::size_t k = 1; k <= points_->fields(); ++k) find_later(i, k, w.point_weight * errors[k - 1]);
+            });
+        out.rays[q] += walkers.asking.size();
+
+        // T: follow the direction; Le: add the light that it hits; then read the fields, or go on.
+        walkers.keep_if([&](CorrectedWalker& w, std::uint32_t i) {
+            return w.pdf != 0.0 && !is_black(w.beta) && ending.live(bounce, w, w.reflected, walkers.samplers[i]);
+        });
+        out.rays[q] += walkers.alive.size();
+        walkers.follow(T, bounce, observer, [&](CorrectedWalker& w, std::uint32_t i) {
+            w.wo = -w.w;
+            if (emitters.is_emitter(w.x.shape)) {
+                const Rgb emitted = emitters.emitted(w.x, w.wo);
+                if (!is_black(emitted)) find(i, w.beta * emitted * direct_.weight_of_hit(w.pdf * w.directions, w.from, w.w, w.x));
+            }
+            return !w.x.is_infinite() && !ending.is_last(bounce) &&
+                   goes_on(w, walkers.samplers[i], walkers.fields, [&](std::size_t k, const Rgb& x) { find_later(i, k, x); });
+        });
+    }
+}
+
+}  // namespace neumann

@@ -1,0 +1,170 @@
+// Walks from the camera that read photon maps. A walk goes on from mirrors and through glass to its first vertex x where light is
+// reflected in more than single directions. The light that x reflects has come
+//
+//     from a light: asked for, as by other walks (ask_light.h);
+//     from a light, by way of delta lobes alone (a caustic): read from the map of caustics;
+//     in all other ways: read from the other map at x; or, if gathered, one more direction is sampled, and the map of all photons
+//     is read at the first such vertex that it finds.
+//
+// A photon of bounce j that is read after b reflections belongs to bounce b + j. Each map is read with two radii, r and r/√2, and
+// the difference of the two pictures tells how far the first is from the truth.
+#pragma once
+
+#include "core/base/hot.h"
+#include "operators/paths/photons/photon_map.h"
+#include "operators/paths/photons/photon_pilot.h"
+#include "operators/paths/walk/ask_light.h"
+#include "operators/paths/walk/continuation.h"
+#include "operators/paths/walk/first_vertices.h"
+#include "operators/paths/walk/observer.h"
+#include "operators/paths/walk/term_samples.h"
+#include "operators/paths/walk/walk_settings.h"
+#include "operators/pointwise/adjoint_reflection.h"
+
+#include <algorithm>
+#include <span>
+#include <vector>
+
+namespace neumann {
+
+// The maps of a pass, and the radii with which they are read, as a part of those of the first pass.
+struct PhotonPass {
+    PhotonMap caustic, others;
+    double relative_radius;
+};
+
+struct PhotonWalkers : Walkers {
+    std::vector<char> gathers;  // whether the walk has reflected in a direction that is not of a delta lobe
+    std::vector<PhotonMap::Near> near;
+    std::vector<Rgb> light;  // what was read, of each quantity
+};
+
+// The `quantities` of a walk are its terms 0 … N and the rest, and then what each loses if the radii are divided by √2.
+class PhotonWalk {
+public:
+    // Keeps references.
+    PhotonWalk(const Scene& scene, const DirectLightSampler& direct, const WalkSettings& settings, const PhotonPilot& pilot,
+               const PhotonPass& pass)
+        : scene_(scene), direct_(direct), settings_(settings), pilot_(pilot), pass_(pass), gather_(pilot.settings.gather) {}
+
+    template <class Sampler, class Observer = NoObserver>
+    NEUMANN_HOT void operator()(std::span<const CameraRay> rays, std::span<Sampler> samplers, PhotonWalkers& walkers,
+                                TermSamples& out, const Observer& observer = {}) const;
+
+private:
+    // The light of a map's photons that x reflects towards wo: calls found(photon, light, difference) for each photon.
+    template <class Found>
+    static void read(const PhotonMap& map, double radius, const SurfaceSide& side, const SurfacePoint& x, const Vec3& wo,
+                     std::vector<PhotonMap::Near>& near, const Found& found) {
+        map.find(x, radius, near);
+        const double radius2 = radius * radius;
+        for (const PhotonMap::Near& n : near) {
+            // With shading normals R* has |ωi·ns| / |ωi·ng| (adjoint_reflection.h), here with the facet on which the photon lies.
+            const Vec3 wi(n.photon->wi), local = side.p.frame.to_local(wi);
+            const Rgb light = eval(*side.bsdf, side.p, side.p.frame.to_local(wo), local) * Rgb(n.photon->power) *
+                              std::abs(local.z / glm::dot(Vec3(n.photon->normal), wi));
+            if (is_black(light)) continue;
+            const double wide = kernel(n.distance2, radius2),
+                         narrow = 2.0 * n.distance2 < radius2 ? kernel(n.distance2, 0.5 * radius2) : 0.0;
+            found(*n.photon, light * wide, light * (wide - narrow));
+        }
+    }
+
+    const Scene& scene_;
+    const DirectLightSampler& direct_;
+    const WalkSettings& settings_;
+    const PhotonPilot& pilot_;
+    const PhotonPass& pass_;
+    bool gather_;
+};
+
+template <class Sampler, class Observer>
+NEUMANN_HOT void PhotonWalk::operator()(std::span<const CameraRay> rays, std::span<Sampler> samplers, PhotonWalkers& walkers,
+                                        TermSamples& out, const Observer& observer) const {
+    const Geometry& T = scene_.geometry;
+    const Emitters& emitters = scene_.emitters;
+    const Ending ending = settings_.ending();
+    const int N = settings_.bounces;
+    const std::size_t terms = static_cast<std::size_t>(N) + 2, quantities = 2 * terms;
+    const auto find = [&](std::uint32_t i, std::size_t q, const Rgb& x) {
+        out.quantities[i * quantities + q] += x;
+        observer.finds(i, q, x);
+    };
+    find_first_vertices(scene_, T, rays, walkers, out.rays[0], observer, [&](std::uint32_t i, const Rgb& Le) { find(i, 0, Le); });
+    walkers.gathers.assign(rays.size(), 0);
+    walkers.light.resize(quantities);
+
+    for (int bounce = 1; ending.reach(bounce, walkers, samplers, out.given_up); ++bounce) {
+        const auto q = static_cast<std::size_t>(std::min(bounce, N + 1));
+        const auto read_map = [&](const PhotonMap& map, double radius, const SurfaceSide& side, const Walker& w, std::uint32_t i) {
+            const Photon* largest = nullptr;
+            Rgb of_largest(0.0);
+            std::ranges::fill(walkers.light, Rgb(0.0));
+            read(map, radius, side, w.x, w.wo, walkers.near, [&](const Photon& photon, const Rgb& light, const Rgb& difference) {
+                const int reflected = bounce - 1 + static_cast<int>(photon.bounce);
+                if (reflected > N && settings_.rest_probability == 0.0) return;
+                const auto of = static_cast<std::size_t>(std::min(reflected, N + 1));
+                walkers.light[of] += light;
+                walkers.light[terms + of] += difference;
+                if (largest && max_component(light) <= max_component(of_largest)) return;
+                largest = &photon;
+                of_largest = light;
+            });
+            if (!largest) return;
+            for (std::size_t of = 0; of < terms; ++of) {
+                if (is_black(walkers.light[of])) continue;
+                find(i, of, w.beta * walkers.light[of]);
+                const Rgb lost = w.beta * walkers.light[terms + of];
+                if (is_finite(lost)) out.quantities[i * quantities + terms + of] += lost;  // what is not is found in the term
+            }
+            observer.reads(i, largest->path, largest->bounce, w.beta * of_largest);
+        };
+        // R: read the maps, sample the lights and, along with the last light sample, the next direction.
+        const std::size_t questions = std::max<std::size_t>(direct_.questions(), 1);
+        for (std::size_t question = 1; question <= questions; ++question) {
+            walkers.keep_if([&](Walker& w, std::uint32_t i) {
+                const SurfaceSide side = scene_.materials.side(w.x, w.wo);
+                if (!side.bsdf) return false;
+                const Vec3 wo = side.p.frame.to_local(w.wo);
+                const bool gathers = walkers.gathers[i] != 0;
+                w.asked.value = Rgb(0.0);
+                if (!is_delta_only(*side.bsdf)) {
+                    if (question == 1 && !gathers && !pass_.caustic.photons().empty())
+                        read_map(pass_.caustic, pass_.relative_radius * pilot_.caustic_radius(w.x.position), side, w, i);
+                    if (question == 1 && (gathers || !gather_))
+                        read_map(pass_.others, pass_.relative_radius * pilot_.settings.radius, side, w, i);
+                    if (!gathers && direct_.questions() > 0)
+                        choose_question(direct_, question % questions, MaterialContinuation(), 1.0, side, wo, samplers[i], w);
+                }
+                if (question < questions) return true;
+                w.leave(side, MaterialContinuation().sample(side, wo, samplers[i]));
+                return true;
+            });
+            out.rays[q] += answer(scene_, T, direct_, LeftOut(), bounce, walkers, observer,
+                                  [&](std::uint32_t i, const Rgb& light) { find(i, q, light); });
+        }
+        walkers.keep_if([&](Walker& w, std::uint32_t i) {
+            if (w.pdf == 0.0 || is_black(w.beta)) return false;
+            if (walkers.gathers[i] != 0 && w.pdf != delta_pdf) return false;
+            return ending.live(bounce, w, w.reflected, samplers[i]);
+        });
+
+        // T: follow the direction; Le: add the light that it hits, unless a map has it.
+        out.rays[q] += walkers.alive.size();
+        walkers.follow(T, bounce, observer, [&](Walker& w, std::uint32_t i) {
+            w.wo = -w.w;
+            const bool gathered = walkers.gathers[i] != 0;
+            if (!gathered && emitters.is_emitter(w.x.shape)) {
+                const Rgb emitted = emitters.emitted(w.x, w.wo);
+                if (!is_black(emitted)) find(i, q, w.beta * emitted * direct_.weight_of_hit(w.pdf, w.from, w.w, w.x));
+            }
+            if (w.pdf != delta_pdf) {
+                if (!gather_) return false;
+                walkers.gathers[i] = 1;
+            }
+            return !w.x.is_infinite();
+        });
+    }
+}
+
+}  // namespace neumann

@@ -1,0 +1,72 @@
+// Direct light at the last reflection, ∫ fs Le |cosθ| dω: samples directions or points.
+#pragma once
+
+#include "core/geometry/area_sampler.h"
+#include "core/material/materials.h"
+#include "core/scene/receiver.h"
+#include "core/scene/scene.h"
+#include "operators/paths/walk/walk_settings.h"
+
+#include <optional>
+
+namespace neumann {
+
+// Whether the strategy cannot find some light: no ray meets a light without extent, and points on surfaces miss an environment.
+bool misses_light(DirectLight direct, const Emitters& emitters);
+
+// A light sample whose visibility is not known yet. A ray tells whether `point` is seen or, if directions are sampled, what is seen
+// along `w`; `weight` is Le / pdf of a point, or 1 / pdf of a direction, which multiplies the Le that is found.
+using LightQuestion = LightSample;
+
+class DirectLightSampler {
+public:
+    DirectLightSampler(const Scene& scene, const DirectLightSettings& settings);
+
+    // Number of light samples at a vertex, besides the BSDF's direction; their contributions add up.
+    std::size_t questions() const { return questions_; }
+    bool asks_directions() const { return settings_.direct == DirectLight::hemisphere || settings_.direct == DirectLight::cosine; }
+    // Whether light that the BSDF's direction hits counts.
+    bool counts_what_is_hit() const { return settings_.direct == DirectLight::bsdf || settings_.direct == DirectLight::mis; }
+
+    template <class Sampler>
+    LightQuestion ask(const SurfaceSide& side, Sampler& sampler, std::size_t question) const {
+        switch (settings_.direct) {
+            case DirectLight::hemisphere:
+            case DirectLight::cosine: {
+                const Vec2 u = sampler.next2();
+                return ask_direction(side, u, transmits(*side.bsdf) ? sampler.next() : 0.0);
+            }
+            case DirectLight::surfaces: {
+                const double choice = sampler.next();
+                return ask_surface(side.p, choice, sampler.next2());
+            }
+            default:
+                return lights_.sample(receiver(side), sampler.next2(), question);
+        }
+    }
+    // Whether ask() finds points that do not depend on the vertex, on surfaces that shine evenly; such a point.
+    bool asks_even_points() const { return asks_even_points_; }
+    EvenPoint ask_even_point(const Vec2& u) const { return lights_.sample_even_point(u); }
+    // The MIS weights of a light sample, and of light that the BSDF's direction has hit at y. `pdf_of_material`: of that direction,
+    // per solid angle.
+    double weight_of_answer(double pdf, double pdf_of_material) const {
+        return settings_.direct == DirectLight::mis ? heuristic(settings_.heuristic, pdf, pdf_of_material) : 1.0;
+    }
+    double weight_of_hit(double pdf_of_material, const Receiver& x, const Vec3& w, const SurfacePoint& y) const {
+        return settings_.direct == DirectLight::mis ? heuristic(settings_.heuristic, pdf_of_material, lights_.pdf(x, w, y)) : 1.0;
+    }
+    bool is_weighted() const { return settings_.direct == DirectLight::mis; }
+
+private:
+    LightQuestion ask_direction(const SurfaceSide& side, const Vec2& u, double which_side) const;
+    LightQuestion ask_surface(const SurfacePoint& x, double choice, const Vec2& u) const;
+
+    const Emitters* emitters_;
+    DirectLightSettings settings_;
+    LightSampler lights_;
+    std::optional<AreaSampler> surfaces_;
+    std::size_t questions_;
+    bool asks_even_points_;
+};
+
+}  // namespace neumann

@@ -1,0 +1,36 @@
+#include "operators/paths/walk/tree_ratios.h"
+
+#include "core/base/error.h"
+#include "operators/paths/walk/tree_pilot.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace neumann {
+
+namespace {
+
+constexpr std::uint32_t samples_of_pilot = 128;
+constexpr std::uint64_t tree_stream = 0x7472656573ull;  // another seed than the pictures'
+constexpr double least_ratio = 0.1, largest_ratio = 16.0, most_branches = 256.0;
+
+}  // namespace
+
+std::shared_ptr<const TreeRatios> tree_ratios(const Scene& scene, int bounces, const TreeGoal& goal, const Watch& watch) {
+    if (goal.bounce && *goal.bounce > bounces)
+        throw InputError(fmt::format("--tree {}: the last bounce that has a picture is {}", *goal.bounce, bounces));
+    const int depths = goal.bounce.value_or(std::min(bounces, most_depths_of_tree));
+    const TreePilot pilot = measure_tree(scene, depths, samples_of_pilot, tree_stream, watch);
+    const std::vector<double> numbers = best_tree(goal.bounce ? pilot.bounces.back() : pilot.sum);
+    TreeRatios result{{}, pilot.rays};
+    double number = 1.0;
+    for (std::size_t j = 1; j < numbers.size(); ++j) {
+        const double ratio = std::clamp(numbers[j] / numbers[j - 1], least_ratio, largest_ratio);
+        result.of_depths.push_back(std::min(ratio, most_branches / number));
+        number *= result.of_depths.back();
+    }
+    return std::make_shared<const TreeRatios>(std::move(result));
+}
+
+}  // namespace neumann

@@ -1,0 +1,112 @@
+#include "operators/render/from_fields/pixel_lights.h"
+
+#include "core/base/hot.h"
+#include "core/sampling/heuristic.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace neumann {
+
+PixelLights::PixelLights(const Scene& scene, std::size_t last_bounce)
+    : scene_(scene), last_bounce_(last_bounce), lights_(scene.geometry, scene.emitters) {
+    if (scene.emitters.empty()) return;
+    if (scene.emitters.has_environment()) {
+        near_ = std::numeric_limits<double>::infinity();
+        return;
+    }
+    const SobolPoints points(256);
+    Sampler sampler(points, 0, 0);
+    Vec3 low(std::numeric_limits<double>::infinity()), high = -low;
+    for (std::uint32_t i = 0; i < points.size(); ++i) {
+        sampler.start(i);
+        const LightSample light = lights_.sample(scene.geometry.center(), sampler.next2());
+        if (light.pdf == delta_pdf) continue;
+        low = glm::min(low, light.point.position);
+        high = glm::max(high, light.point.position);
+    }
+    if (low.x > high.x) return;  // no light has an extent
+    low_ = low;
+    high_ = high;
+    near_ = glm::length(high_ - low_);
+}
+
+std::uint64_t PixelLights::find(std::span<PixelRay> rays) const { return find_by_points(rays) + find_by_chance(rays); }
+
+std::uint64_t PixelLights::find_by_points(std::span<PixelRay> rays) const {
+    if (lights_.empty()) return 0;
+    std::vector<PixelRay*> asking;
+    for (PixelRay& l : rays)
+        if (ask(l, *l.sample->sampler, Rgb(l.sample->weight), asks_chance(l))) asking.push_back(&l);
+    add_visible(asking);
+    return asking.size();
+}
+
+std::uint64_t PixelLights::find_at_links(std::span<PixelRay* const> rays) const {
+    if (lights_.empty()) return 0;
+    std::vector<PixelRay*> asking;
+    for (PixelRay* l : rays)
+        if (ask(*l, *l->sample->gather_sampler, l->through / (l->index * l->index), true)) asking.push_back(l);
+    add_visible(asking);
+    return asking.size();
+}
+
+// Chooses a point on a light and sets y and the weight of what it brings; false if it brings nothing.
+bool PixelLights::ask(PixelRay& l, Sampler& sampler, const Rgb& scale, bool asks_directions_too) const {
+    const LightSample light = lights_.sample(l.x.position, sampler.next2());
+    if (!(light.pdf > 0.0)) return false;
+    const SurfaceSide side = scene_.materials.side(l.x, l.wo);
+    if (!side.bsdf) return false;
+    const Vec3 wo = side.p.frame.to_local(l.wo), wi = side.p.frame.to_local(light.w);
+    const double pdf_other = asks_directions_too ? neumann::pdf(*side.bsdf, side.p, wo, wi) : 0.0;
+    l.weight = eval(*side.bsdf, side.p, wo, wi) * light.weight * scale * (std::abs(wi.z) * power_heuristic(light.pdf, pdf_other));
+    l.y = light.point;
+    return !is_black(l.weight);
+}
+
+// Adds the light that is asked for, where it is visible.
+void PixelLights::add_visible(std::span<PixelRay* const> asking) const {
+    constexpr std::size_t packet = RayCaster::packet_size;
+    for (std::size_t begin = 0; begin < asking.size(); begin += packet) {
+        const std::size_t n = std::min(packet, asking.size() - begin);
+        const std::uint32_t seen = scene_.geometry.visible(
+            n,
+            [&](std::size_t i) {
+                return std::pair<const SurfacePoint&, const SurfacePoint&>(asking[begin + i]->x, asking[begin + i]->y);
+            },
+            RayCaster::Rays::alike);
+        for (std::size_t i = 0; i < n; ++i)
+            if (seen >> i & 1u) asking[begin + i]->sample->add(bounce_of(*asking[begin + i]), asking[begin + i]->weight);
+    }
+}
+
+std::uint64_t PixelLights::find_by_chance(std::span<PixelRay> rays) const {
+    const Emitters& emitters = scene_.emitters;
+    std::vector<PixelRay*> asking;
+    for (PixelRay& l : rays) {
+        // The others find theirs when they take all directions.
+        if (!emitters.empty() && !l.takes_all && asks_chance(l) && l.choose_direction(scene_.materials, *l.sample->sampler))
+            asking.push_back(&l);
+    }
+    for_hits(
+        scene_.geometry, asking.size(),
+        [&](std::size_t i) { return std::pair<const SurfacePoint&, const Vec3&>(asking[i]->x, asking[i]->wi); },
+        [&](std::size_t i) -> SurfacePoint& { return asking[i]->y; },
+        [&](std::size_t i) {
+            const PixelRay& l = *asking[i];
+            const Rgb emitted = emitters.emitted(l.y, -l.wi);
+            if (is_black(emitted)) return;
+            l.sample->add(1, l.weight * emitted *
+                                 (l.sample->weight * power_heuristic(l.pdf, lights_.pdf(l.x.position, l.wi, l.y)) /
+                                  (l.index_beyond * l.index_beyond)));
+        });
+    return asking.size();
+}
+
+// Near the lights (closer than the size of their box), where the variance of points on them may be infinite, and if the material is
+// not diffuse. The choice depends on x alone, so the estimate stays unbiased.
+bool PixelLights::asks_chance(const PixelRay& l) const {
+    return !l.diffuse || glm::distance(l.x.position, glm::clamp(l.x.position, low_, high_)) < near_;
+}
+
+}  // namespace neumann

@@ -1,0 +1,73 @@
+#include "operators/render/from_paths/corrected_sampler.h"
+
+#include "operators/render/from_paths/corrected_group.h"
+#include "operators/render/from_paths/pixel_groups.h"
+
+#include <algorithm>
+#include <bit>
+#include <stdexcept>
+
+namespace neumann {
+
+namespace {
+
+constexpr FirstVertex at_point{.lights = 32, .directions = 64, .points = 16, .clamp = 10.0};
+constexpr double fewest_points = 256.0, most_points = 4096.0;
+
+std::uint32_t choose_points(double pixels, const SamplingSettings& settings) {
+    const auto rays = [](const FirstVertex& v) { return static_cast<double>(v.lights + v.directions + v.points); };
+    const double of_pixel = settings.replicate_size * (1.0 + rays(at_pixel)), of_point = rays(at_point),
+                 sets = std::clamp(settings.walk.bounces, 1, 8);
+    return std::bit_floor(static_cast<std::uint32_t>(
+        std::clamp(CorrectedSampler::share_of_points * pixels * of_pixel / (of_point * sets), fewest_points, most_points)));
+}
+
+}  // namespace
+
+CorrectedSampler::CorrectedSampler(const Scene& scene, const SamplingSettings& settings)
+    : scene_(&scene),
+      settings_(settings),
+      layout_(settings.layout(scene.film)),
+      direct_(std::make_shared<const DirectLightSampler>(scene, settings.walk.direct)) {
+    if (!settings.approximation) throw std::logic_error("PictureSampler: corrected fields are missing");
+    points_ = std::make_shared<const PointMaker>(
+        scene, *direct_, settings_.walk, *settings_.approximation, settings_.sampler, settings_.seed,
+        choose_points(settings_.pixels_of_points > 0 ? settings_.pixels_of_points : layout_.pixels(), settings_), at_point);
+    std::uint32_t largest = 1;
+    for (std::uint32_t pixel = 0; pixel < layout_.pixels(); ++pixel) largest = std::max(largest, layout_.size(pixel));
+    for (std::uint32_t size = 1; size <= largest; size *= 2) direction_nets_.emplace_back(size * at_pixel.directions);
+}
+
+bool CorrectedSampler::sample_picture(std::uint64_t replicate, std::vector<Rgb>& picture, SampleRanges& ranges, Tally& tally,
+                                      const Watch& watch) const {
+    const std::size_t Q = settings_.quantities();
+    std::uint64_t rays = 0;
+    std::optional<SharedPoints> points;
+    if (points_->sets() > 0) {
+        points = points_->make(replicate, rays, tally.given_up, watch);
+        if (!points) return false;
+    }
+    tally.rays[std::min<std::size_t>(2, Q - 1)] += rays;
+    tally.shared_rays += rays;
+    return sample_groups<Workspace>(
+        settings_, layout_, replicate, picture, ranges, tally, watch,
+        [&](const PixelGroup& pixels, Workspace& work) { trace_group(replicate, pixels, points ? &*points : nullptr, work); });
+}
+
+std::optional<std::uint64_t> CorrectedSampler::own_samples(std::uint64_t replicate, const OwnSamples& each,
+                                                           const Watch& watch) const {
+    std::uint64_t rays = 0, given_up = 0;
+    std::optional<SharedPoints> points;
+    if (points_->sets() > 0) {
+        points = points_->make(replicate, rays, given_up, watch);
+        if (!points) return std::nullopt;
+    }
+    const bool done = for_groups(layout_, watch, [&](const PixelGroup& pixels) {
+        Workspace work(settings_.quantities());
+        trace_group(replicate, pixels, points ? &*points : nullptr, work);
+        each(pixels, work.group.samples, work.tally.rays);
+    });
+    return done ? std::optional(rays) : std::nullopt;
+}
+
+}  // namespace neumann

@@ -1,0 +1,116 @@
+#include "operators/render/from_paths/mixed_sampler.h"
+
+#include "operators/render/from_paths/film_shares.h"
+#include "operators/render/from_paths/picture_sampler.h"
+
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace neumann {
+
+namespace {
+
+constexpr std::uint64_t part_stream = 0x9e3779b97f4a7c15ULL;
+
+}  // namespace
+
+SamplingSettings settings_of_part(const SamplingSettings& settings, std::size_t part) {
+    const Mixture::Part& of = settings.mixture->parts[part];
+    SamplingSettings own = settings;
+    own.mixture = {};
+    own.generator = of.generator;
+    own.guide = of.guide;
+    own.approximation = of.approximation;
+    own.allocation = of.allocation;
+    own.walk.left_out = of.left_out;
+    if (!of.allocation) own.replicate_size = Allocation::size_of(settings.replicate_size, of.exponent);
+    own.seed = settings.seed ^ (part + 1) * part_stream;
+    return own;
+}
+
+MixedSampler::MixedSampler(const Scene& scene, const SamplingSettings& settings)
+    : film_(&scene.film),
+      settings_(settings),
+      width_(static_cast<std::uint32_t>(scene.film.crop_width)),
+      height_(static_cast<std::uint32_t>(scene.film.crop_height)),
+      mixture_(settings.mixture) {
+    for (std::size_t part = 0; part < mixture_->parts.size(); ++part) {
+        parts_.push_back(std::make_shared<const PictureSampler>(scene, settings_of_part(settings, part)));
+        const SampleLayout& layout = parts_.back()->layout();
+        splats_.push_back(splats(mixture_->parts[part].generator)
+                              ? static_cast<double>(layout.paths()) / layout.pixels() / settings.replicate_size
+                              : 0.0);
+    }
+}
+
+double MixedSampler::weight(std::size_t part, std::size_t quantity, std::uint32_t pixel) const {
+    return mixture_->weight(part, quantity, mixture_->blocks.of(pixel, width_, height_));
+}
+
+double MixedSampler::scale(std::size_t part, std::size_t quantity, std::uint32_t pixel) const {
+    const double own = parts_[part]->layout().size(pixel) / static_cast<double>(settings_.replicate_size), other = splats_[part];
+    // Where both bring light, the one with fewer samples.
+    const double samples = own > 0.0 && other > 0.0 ? std::min(own, other) : std::max(own, other);
+    return samples > 0.0 ? weight(part, quantity, pixel) / samples : 0.0;
+}
+
+double MixedSampler::scale(std::size_t part, std::size_t quantity, const Vec2& position) const {
+    return scale(part, quantity, pixel_at(*film_, position));
+}
+
+MixedSampler::OfPart MixedSampler::part_of(const SampleName& name) const {
+    const std::size_t part = name.sample % parts_.size();
+    return {*parts_[part], {name.pixel, name.sample / parts_.size()}, part, mixture_->parts[part].method};
+}
+
+bool MixedSampler::sample_picture(std::uint64_t replicate, std::vector<Rgb>& picture, SampleRanges& ranges, Tally& tally,
+                                  const Watch& watch) const {
+    const std::size_t Q = settings_.quantities(), parts = parts_.size();
+    const std::uint32_t pixels = width_ * height_;
+    double done = 0.0;
+    for (std::size_t part = 0; part < parts; ++part) {
+        const double share = mixture_->parts[part].share;
+        Watch of_part = watch;
+        of_part.progress = [&](const RenderProgress& of) { watch.progress({.fraction = done + share * of.fraction}); };
+        std::vector<Rgb> own(picture.size(), Rgb(0.0));
+        SampleRanges own_ranges;
+        own_ranges.of.resize(picture.size());
+        Tally counted(Q);
+        if (!parts_[part]->sample_picture(replicate, own, own_ranges, counted, of_part)) return false;
+        done += share;
+
+        oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::uint32_t>(0, pixels, 256), [&](const auto& range) {
+            for (std::uint32_t pixel = range.begin(); pixel < range.end(); ++pixel)
+                for (std::size_t q = 0; q < Q; ++q) {
+                    const std::size_t i = pixel * Q + q;
+                    picture[i] += own[i] * weight(part, q, pixel);
+                    const SampleRange& of = own_ranges.of[i];
+                    if (of.smallest[0] > of.largest[0]) continue;
+                    const double unit = scale(part, q, pixel);
+                    ranges.of[i].add(Rgb(of.smallest[0], of.smallest[1], of.smallest[2]) * unit);
+                    ranges.of[i].add(Rgb(of.largest[0], of.largest[1], of.largest[2]) * unit);
+                }
+        });
+        const auto rename = [&](SamplePlace& place) { place.name.sample = place.name.sample * parts + part; };
+        for (NonFiniteSample& sample : counted.non_finite) rename(sample.place);
+        // Of those that the method itself found large: where blocks have other weights, some that it did not keep may be larger
+        // now.
+        for (std::size_t q = 0; q < Q; ++q) {
+            const LargestSamples of = std::exchange(counted.largest[q], {});
+            counted.largest[q].outdo(tally.largest[q]);
+            counted.largest[q].add_count(of.count());
+            for (LargestSamples::Sample sample : of.kept()) {
+                sample.value *= scale(part, q, sample.place.pixel);
+                rename(sample.place);
+                counted.largest[q].add(sample.value, sample.place);
+            }
+        }
+        tally.merge(counted);
+    }
+    return true;
+}
+
+}  // namespace neumann

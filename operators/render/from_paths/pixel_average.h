@@ -1,0 +1,26 @@
+// The mean of one pixel's samples in a replicate.
+#pragma once
+
+#include "operators/render/from_paths/tally.h"
+#include "operators/statistics/sample_ranges.h"
+
+#include <glm/glm.hpp>
+
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace neumann {
+
+// The means of all quantities, and work space.
+struct PixelAverage {
+    explicit PixelAverage(std::size_t quantities) : mean(quantities), low(quantities), high(quantities) {}
+    std::vector<Rgb> mean, low, high;
+};
+
+// `samples`: sample by sample, all quantities of each. Writes the means into `average.mean` and adds the samples to the pixel's
+// ranges and to the tally; samples that are not finite are recorded there and left out. `colors`: as SamplingSettings::colors.
+void average(std::span<Rgb> samples, std::size_t size, std::uint32_t pixel, std::uint64_t replicate,
+             const std::optional<glm::dmat3>& colors, PixelAverage& average, std::span<SampleRange> ranges, Tally& tally);
+
+}  // namespace neumann

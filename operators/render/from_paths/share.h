@@ -1,0 +1,43 @@
+// Pieces of a node of the tree of replicates, which other processes may sample.
+#pragma once
+
+#include "operators/render/from_paths/tally.h"
+#include "operators/statistics/series_moments.h"
+
+#include <compare>
+#include <cstdint>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace neumann {
+
+// Pixels begin … end − 1 of all replicates of a node; where pixels share samples, all pixels of one replicate.
+struct Share {
+    std::uint64_t first = 0, count = 1;  // replicates
+    std::uint32_t begin = 0, end = 0;
+    auto operator<=>(const Share&) const = default;
+};
+
+struct SampledShare {
+    // The moments of the pixels, as in a MomentsNode; of a whole picture its pixels, RGB of each quantity.
+    std::vector<double> data;
+    SampleRanges ranges;
+    Tally tally;
+};
+
+// Other processes that sample shares of one render, each a few at a time. What an exception tells of one of them ends the render.
+class Helpers {
+public:
+    virtual ~Helpers() = default;
+    // How many there are.
+    virtual int count() const = 0;
+    // Gives the share to one that has room for it, if there is one; `tally` is that of what was sampled before.
+    virtual bool give(const Share& share, const Tally& tally) = 0;
+    // What one of them has done since.
+    virtual std::optional<std::pair<Share, SampledShare>> take() = 0;
+    // Nobody waits for what they are sampling now.
+    virtual void drop() = 0;
+};
+
+}  // namespace neumann

@@ -1,0 +1,48 @@
+// Shares that this process samples, one after the other, in a thread of its own: another one can read messages meanwhile.
+#pragma once
+
+#include "operators/render/from_paths/picture_sampler.h"
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <deque>
+#include <exception>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <utility>
+
+namespace neumann {
+
+class ShareQueue {
+public:
+    // Keeps a reference.
+    explicit ShareQueue(const PictureSampler& sampler) : sampler_(sampler), thread_([this] { run(); }) {}
+    ~ShareQueue();
+
+    void add(const Share& share, const Tally& tally);
+    // Those that are not sampled yet.
+    std::size_t waiting() const;
+    // One that is sampled. Throws what the sampling threw.
+    std::optional<std::pair<Share, SampledShare>> take();
+    // Returns when one is there to be taken, or at the end of the time.
+    void wait_for(std::chrono::microseconds time);
+    // Forgets all of them, and what is under way.
+    void drop();
+
+private:
+    void run();
+
+    const PictureSampler& sampler_;
+    mutable std::mutex mutex_;
+    std::condition_variable changed_;
+    std::deque<std::pair<Share, Tally>> to_do_;
+    std::deque<std::pair<Share, SampledShare>> done_;
+    std::exception_ptr failure_;
+    std::atomic<bool> is_dropped_ = false;
+    bool is_busy_ = false, is_over_ = false;
+    std::jthread thread_;
+};
+
+}  // namespace neumann

@@ -1,0 +1,127 @@
+#include "operators/render/from_paths/splat_sampler.h"
+
+#include "operators/render/from_paths/film_shares.h"
+#include "operators/render/from_paths/in_order.h"
+#include "operators/render/from_paths/splat_group.h"
+
+#include <oneapi/tbb/enumerable_thread_specific.h>
+#include <algorithm>
+
+namespace neumann {
+
+namespace {
+
+// Number of groups in one Chunk of work.
+constexpr std::uint32_t groups_at_once = 8;
+
+}  // namespace
+
+// The contributions of one piece of work to pixels anywhere on the film, in a fixed order.
+struct SplatSampler::Chunk {
+    std::vector<PixelShare> shares;
+};
+
+SplatSampler::SplatSampler(const Scene& scene, const SamplingSettings& settings)
+    : scene_(&scene),
+      settings_(settings),
+      pixels_(static_cast<std::uint32_t>(scene.film.crop_width) * static_cast<std::uint32_t>(scene.film.crop_height)),
+      emission_(scene.geometry, scene.emitters),
+      lights_(scene.geometry, scene.emitters),
+      bidirectional_(scene, settings.walk, pixels_),
+      layout_(settings.layout(scene.film)),
+      light_points_(light_net) {}
+
+void SplatSampler::sample_paths(std::uint64_t replicate, std::uint32_t first, std::uint32_t samples, Chunk& chunk,
+                                Workspace& work) const {
+    const std::size_t Q = settings_.quantities();
+    const auto name = [&](std::uint32_t i) { return layout_.name(replicate, first + i); };
+    trace_group(
+        replicate, first, samples,
+        [&](std::uint32_t i, std::size_t q, const Rgb& value) { work.group.samples[i * Q + q] += value; },
+        [&](std::uint32_t i, const Vec2& position, std::size_t q, const Rgb& value) {
+            spread(scene_->film, position, q, value / static_cast<double>(pixels_), name(i), chunk.shares, work.tally);
+        },
+        work);
+}
+
+void SplatSampler::sample_group(std::uint64_t replicate, std::uint32_t first, std::uint32_t samples, Chunk& chunk,
+                                std::span<Rgb> own, SampleRanges& ranges, Workspace& work) const {
+    const std::size_t Q = settings_.quantities();
+    sample_paths(replicate, first, samples, chunk, work);
+    if (settings_.generator == PathGenerator::light) return;
+    for (std::uint32_t i = 0; i < samples; ++i) {
+        const SampleName name = layout_.name(replicate, first + i);
+        const SamplePlace place{name.pixel, name};
+        for (std::size_t q = 0; q < Q; ++q) {
+            Rgb& x = work.group.samples[i * Q + q];
+            if (!is_finite(x)) [[unlikely]] {
+                work.tally.keep({static_cast<int>(q), place});
+                x = Rgb(0.0);
+            }
+            work.tally.largest[q].add(max_component(glm::abs(x)), place);
+            const Rgb weighted = x * work.group.weights[i];
+            own[place.pixel * Q + q] += weighted;
+            ranges.of[place.pixel * Q + q].add(weighted);
+        }
+    }
+}
+
+std::vector<Rgb> SplatSampler::own_samples(std::uint64_t replicate, const PixelGroup& pixels, std::span<std::uint64_t> rays) const {
+    Workspace work(settings_.quantities());
+    Chunk chunk;
+    sample_paths(replicate, layout_.first_path(pixels.begin), pixels.paths(), chunk, work);
+    for (std::size_t q = 0; q < rays.size(); ++q) rays[q] += work.tally.rays[q];
+    std::vector<Rgb>& samples = work.group.samples;
+    for (std::size_t k = 0; k < samples.size(); ++k) samples[k] *= work.group.weights[k / settings_.quantities()];
+    return std::move(samples);
+}
+
+bool SplatSampler::sample_picture(std::uint64_t replicate, std::vector<Rgb>& picture, SampleRanges& ranges, Tally& tally,
+                                  const Watch& watch) const {
+    const std::size_t Q = settings_.quantities();
+    const std::uint32_t samples = layout_.paths(), groups = layout_.groups();
+    std::vector<Rgb> splatted(picture.size(), Rgb(0.0));
+    SampleRanges of_shares;
+    of_shares.of.resize(picture.size());
+    oneapi::tbb::enumerable_thread_specific<Workspace> workspaces([&] {
+        Workspace work(Q);
+        work.tally = without_smaller_samples(tally);
+        return work;
+    });
+    const std::size_t chunks = (groups + groups_at_once - 1) / groups_at_once;
+    const bool done = add_in_order<Chunk>(
+        chunks,
+        [&](std::size_t k, Chunk& chunk) {
+            Workspace& work = workspaces.local();
+            chunk.shares.clear();
+            const auto begin = static_cast<std::uint32_t>(k) * groups_at_once;
+            for (std::uint32_t g = begin; g < std::min(begin + groups_at_once, groups); ++g) {
+                const PixelGroup group = layout_.group(g);
+                sample_group(replicate, layout_.first_path(group.begin), group.paths(), chunk, picture, ranges, work);
+            }
+        },
+        [&](std::size_t k, const Chunk& chunk) {
+            for (const PixelShare& s : chunk.shares) {
+                splatted[s.pixel * Q + s.quantity] += s.value;
+                of_shares.of[s.pixel * Q + s.quantity].add(s.value);
+            }
+            watch.progress({.fraction = static_cast<double>(k + 1) / static_cast<double>(chunks)});
+            return !watch.stop();
+        });
+    if (!done) return false;
+    for (const Workspace& work : workspaces) tally.merge(work.tally);
+    for (LargestSamples& largest : tally.largest) largest.add_count(samples);
+    // Most paths contribute nothing to a given pixel, so 0 is among the samples.
+    for (SampleRange& range : of_shares.of)
+        if (range.largest[0] >= range.smallest[0] || settings_.generator == PathGenerator::light) range.add(Rgb(0.0));
+    ranges.merge(of_shares);
+    const double of_splats = static_cast<double>(pixels_) / samples;
+    for (std::size_t i = 0; i < picture.size(); ++i) {
+        const double own = 1.0 / std::max(layout_.size(static_cast<std::uint32_t>(i / Q)), 1u);
+        picture[i] = own == of_splats ? (picture[i] + splatted[i]) * own : picture[i] * own + splatted[i] * of_splats;
+        if (settings_.colors) picture[i] = *settings_.colors * picture[i];
+    }
+    return true;
+}
+
+}  // namespace neumann

@@ -1,0 +1,10 @@
+// The default number of bounces N with a picture of their own: enough that the rest is small.
+#pragma once
+
+#include "operators/render/from_paths/pilot.h"
+
+namespace neumann {
+
+int default_bounces(const Pilot& pilot);
+
+}  // namespace neumann

@@ -1,0 +1,45 @@
+#include "operators/render/methods/first_pictures.h"
+
+#include "core/base/error.h"
+#include "operators/render/from_fields/field_rendering.h"
+#include "operators/render/methods/ahead.h"
+
+#include <algorithm>
+
+namespace neumann {
+
+namespace {
+
+constexpr std::uint64_t stream = 0x66697273ull;  // another seed than the pictures'
+constexpr int most_pixels = 192, bounces = 6;
+constexpr std::size_t most_shapes = 20'000;
+
+bool makes_all_paths(const Method& method) {
+    return std::holds_alternative<method::Auto>(method) || std::holds_alternative<method::Walk>(method) ||
+           std::holds_alternative<method::Guided>(method) || std::holds_alternative<method::Corrected>(method) ||
+           std::holds_alternative<method::Bidirectional>(method) || std::holds_alternative<method::Mixed>(method) ||
+           std::holds_alternative<method::Pointwise>(method);
+}
+
+}  // namespace
+
+void show_first_pictures(const Scene& scene, const Method& method, const Goal& goal, const Watch& watch) {
+    if (!watch.show || goal.colors || !makes_all_paths(method) || scene.geometry.shapes().size() > most_shapes) return;
+    FieldSettings settings;
+    settings.bounces = std::min(goal.bounces.value_or(scene.bounces.value_or(bounces)), bounces);
+    if (expected_rays(with_default_limits(goal), scene.film, settings.bounces) < rays_of_a_long_render) return;
+    settings.patching.patches = 1000;
+    settings.rays = 64;
+    settings.samples = 4;
+    settings.replicates = 2;
+    settings.seed = goal.seed ^ stream;
+    settings.rest = false;
+    try {
+        const auto pictures = render_fields(scene.with(small_film(scene.film, most_pixels)), settings, {.stop = watch.stop});
+        if (pictures) watch.show(pictures->bounces(), [&](std::size_t i) { return pictures->term_mean(i); });
+    } catch (const InputError&) {
+        // Fields do without some scenes, such as those without surfaces.
+    }
+}
+
+}  // namespace neumann

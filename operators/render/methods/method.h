@@ -1,0 +1,203 @@
+// The methods that compute the terms of the series: a closed set, each with its own options and no others.
+#pragma once
+
+#include "core/scene/scene.h"
+#include "operators/paths/cache/cache_settings.h"
+#include "operators/paths/walk/tree_ratios.h"
+#include "operators/paths/walk/walk_settings.h"
+#include "operators/render/from_paths/allocation.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <variant>
+
+namespace neumann {
+
+namespace method {
+
+enum class LeavingOut {
+    by_plan,  // leave out what the plan proves unnecessary in this scene (operators/render/plan)
+    nothing
+};
+
+// Options of all methods that sample paths.
+struct PathOptions {
+    std::optional<SamplerKind> sampler = {};  // default: the scene's sampler, or Sobol' points if the scene names none
+    LeavingOut plan = LeavingOut::by_plan;
+    bool operator==(const PathOptions&) const = default;
+};
+
+// The method of these that promises least error for its cost in the scene (choose_method.h).
+struct Auto : PathOptions {
+    static constexpr const char* name = "auto";
+    std::optional<LeastError> adaptive = {};  // as of the walk; default: all, if a pilot for it pays
+    bool bias_allowed = false;                // if it may be one of those with a bias, which they state
+    bool operator==(const Auto&) const = default;
+};
+
+// Path tracing: walks from the camera sample directions by the BSDF. One walk gives a sample of every bounce.
+struct Walk : PathOptions {
+    static constexpr const char* name = "walk";
+    DirectLightSettings direct = {};
+    Roulette roulette = {};
+    Split split = {};
+    std::optional<LeastError> adaptive = {};  // if pixels have different numbers of samples: to make this least
+    bool reuse = false;                       // walks of neighbouring pixels use each other's tails
+    std::optional<TreeGoal> tree = {};        // if the walk splits and ends by the best numbers for its depths: for what
+    bool operator==(const Walk&) const = default;
+};
+
+// Path tracing whose diffuse reflections sample tables of the incident light (path guiding).
+struct Guided : PathOptions {
+    static constexpr const char* name = "guided";
+    std::optional<std::size_t> patches = {};
+    std::optional<std::uint32_t> directions = {};
+    std::optional<LeastError> adaptive = {};  // as of the walk
+    bool operator==(const Guided&) const = default;
+};
+
+// Corrected fields: walks from the camera read approximate fields on patches at the second diffuse surface, and the errors of the
+// fields are carried by points that all pixels share.
+struct Corrected : PathOptions {
+    static constexpr const char* name = "corrected";
+    std::optional<std::size_t> patches = {};
+    std::optional<std::uint32_t> directions = {};
+    std::optional<LeastError> adaptive = {};  // as of the walk
+    bool operator==(const Corrected&) const = default;
+};
+
+// Walks from the camera that choose the next vertex uniformly by area on all surfaces.
+struct Surface : PathOptions {
+    static constexpr const char* name = "surface";
+    bool operator==(const Surface&) const = default;
+};
+
+// Light tracing: walks from the lights, joined to the camera.
+struct Light : PathOptions {
+    static constexpr const char* name = "light";
+    Roulette roulette = {};
+    bool operator==(const Light&) const = default;
+};
+
+// Bidirectional path tracing: subpaths from both ends, joined at every pair of vertices.
+struct Bidirectional : PathOptions {
+    static constexpr const char* name = "bidirectional";
+    DirectLightSettings direct = {};  // must be multiple importance sampling: it both samples lights and hits them
+    Roulette roulette = {};
+    Split split = {};
+    std::optional<LeastError> adaptive = {};  // as of the walk
+    std::optional<int> ways = {};             // show every way (s, t) to make this bounce (ways.h)
+    bool operator==(const Bidirectional&) const = default;
+};
+
+// Progressive photon maps: paths from the lights leave their power where they are reflected, and walks from the camera read it
+// nearby.
+struct Photon : PathOptions {
+    static constexpr const char* name = "photon";
+    std::optional<std::uint32_t> photons = {};  // paths from the lights in each pass
+    std::optional<double> radius = {};          // in the first pass; by a pilot if it is not given
+    bool gather = false;                        // one more reflection is sampled before a map is read
+    bool operator==(const Photon&) const = default;
+};
+
+// An irradiance cache: records on diffuse surfaces hold the irradiance of each bounce, from that of the bounce before, and walks
+// from the camera read it nearby.
+struct Cache : PathOptions {
+    static constexpr const char* name = "cache";
+    Spacing records = Spacing::hessian;            // what says where records stand
+    std::optional<double> accuracy = {};           // the error allowed to records (cache_settings.h)
+    std::optional<std::uint32_t> directions = {};  // rays of a record in each pass
+    bool operator==(const Cache&) const = default;
+};
+
+// Multiplexed Metropolis light transport: for each bounce, Markov chains among the paths of the bidirectional method.
+struct Metropolis : PathOptions {
+    static constexpr const char* name = "metropolis";
+    std::optional<std::uint32_t> chain = {};  // states of each chain in a replicate
+    bool operator==(const Metropolis&) const = default;
+};
+
+// Walk, guided, corrected, bidirectional, light and metropolis together: each block of the picture and each bounce is a mean of their pictures,
+// weighted by their precision there, which a pilot tells (best_mixture.h).
+struct Mixed : PathOptions {
+    static constexpr const char* name = "mixed";
+    std::optional<LeastError> adaptive = {};  // what it makes least; default: all
+    bool operator==(const Mixed&) const = default;
+};
+
+// Classic ray tracing (Whitted): walks go on through mirrors and glass alone.
+struct Classic : PathOptions {
+    static constexpr const char* name = "classic";
+    bool operator==(const Classic&) const = default;
+};
+
+// Each bounce is sampled by walks of its own.
+struct Pointwise : PathOptions {
+    static constexpr const char* name = "pointwise";
+    bool operator==(const Pointwise&) const = default;
+};
+
+// Options of all methods with fields on patches. Options that are not given are chosen to reach the goal.
+struct FieldOptions {
+    std::optional<std::size_t> patches = {};
+    std::optional<std::uint32_t> directions = {};  // rays per side of a patch, in all replicates together
+    bool operator==(const FieldOptions&) const = default;
+};
+
+// The series is computed with T and R on patches, and the field is interpolated at the pixel.
+struct Matrix : FieldOptions {
+    static constexpr const char* name = "matrix";
+    bool operator==(const Matrix&) const = default;
+};
+
+// As Matrix, with K applied once more at the pixel (final gathering).
+struct Gather : FieldOptions {
+    static constexpr const char* name = "gather";
+    bool operator==(const Gather&) const = default;
+};
+
+// The piecewise constant field on the patches is shown as it is.
+struct Patches : FieldOptions {
+    static constexpr const char* name = "patches";
+    bool importance = false;  // show K*^i We in place of K^i Le
+    bool operator==(const Patches&) const = default;
+};
+
+}  // namespace method
+
+using Method = std::variant<method::Auto, method::Walk, method::Guided, method::Corrected, method::Surface, method::Light,
+                            method::Bidirectional, method::Mixed, method::Photon, method::Cache, method::Metropolis,
+                            method::Classic, method::Pointwise, method::Matrix, method::Gather, method::Patches>;
+
+inline const char* name_of(const Method& method) {
+    return std::visit([](const auto& m) { return m.name; }, method);
+}
+
+template <class M>
+concept MakesPaths = std::derived_from<M, method::PathOptions>;
+template <class M>
+concept HasFields = std::derived_from<M, method::FieldOptions>;
+
+inline bool has_fields(const Method& method) {
+    return std::visit([]<class M>(const M&) { return HasFields<M>; }, method);
+}
+
+// What pixels have different numbers of samples for, if they have.
+inline std::optional<LeastError> adaptive_of(const Method& method) {
+    return std::visit(
+        [](const auto& m) -> std::optional<LeastError> {
+            if constexpr (requires { m.adaptive; })
+                return m.adaptive;
+            else
+                return {};
+        },
+        method);
+}
+
+// Whether its pictures differ from the terms by an error that samples do not show, and estimate it.
+inline bool is_biased(const Method& method) {
+    return has_fields(method) || std::holds_alternative<method::Photon>(method) || std::holds_alternative<method::Cache>(method);
+}
+
+}  // namespace neumann

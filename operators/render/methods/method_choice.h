@@ -1,0 +1,25 @@
+// Why --method auto took the method that it took.
+#pragma once
+
+#include "operators/render/methods/method.h"
+
+#include <string>
+#include <vector>
+
+namespace neumann {
+
+// What a method did in the pilot.
+struct MethodTrial {
+    std::string method;
+    double rays = 0.0;   // per camera sample, without those before the first sample
+    double error = 0.0;  // relative, of all bounces together: √Σ_i E|error of K^i Le|² / |K^i Le|²
+};
+
+struct MethodChoice {
+    Method method;
+    std::string why;                       // in words
+    std::vector<MethodTrial> trials = {};  // none if there was nothing to choose, or too little to gain
+    double seconds = 0.0;
+};
+
+}  // namespace neumann

@@ -1,0 +1,54 @@
+// The only table of the methods' options: name, legal values, help text, and which methods have the option. The command line and
+// its help, run.json, replays, studies and Python use it.
+#pragma once
+
+#include "operators/render/methods/method.h"
+
+#include <functional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace neumann {
+
+struct MethodOption {
+    enum class Kind { text, number, flag };  // a number is a whole number; a flag is "true" or "false"
+    Kind kind;
+    std::string name, type, help;
+    // Returns what is wrong with a text, in words, or an empty string if read() accepts it.
+    std::function<std::string(const std::string&)> wrong;
+    std::function<bool(const Method&)> belongs_to;
+    // Sets the option. Requires that the method has it and that wrong(text) is empty.
+    std::function<void(Method&, const std::string&)> read;
+    // The value in the form that read() accepts; empty if the method does not have the option or leaves it open.
+    std::function<std::string(const Method&)> text;
+    std::vector<std::string> words = {};  // all that read() accepts, where it accepts nothing but some words
+};
+
+// All options, in the order of the help.
+std::span<const MethodOption> method_options();
+std::vector<std::string> method_names();
+// What is wrong with the name of a method, and what may be meant; "" if it is one.
+std::string wrong_method(const std::string& name);
+// Help text: a method in a few words, and all of them.
+std::string method_help(const std::string& name);
+const std::string& method_help();
+
+// A method as text: its name, and the options that are given.
+struct MethodText {
+    std::string name = {};  // empty: auto, or walk if an option is given that auto does not have
+    std::vector<std::pair<std::string, std::string>> options = {};
+};
+// Throws InputError where a name or a text is unknown, an option does not belong to the method, or two of them exclude each other.
+Method make_method(const MethodText& text);
+// The same in one word: "walk:direct=bsdf:lights=power".
+Method read_method(const std::string& word);
+// The value of --direct that gives these settings.
+std::string name_of(const DirectLightSettings& direct);
+// The inverse of make_method(): all options that are not left open.
+MethodText text_of(const Method& method);
+// As text_of(), with only those options that differ from their defaults.
+MethodText differences_of(const Method& method);
+
+}  // namespace neumann

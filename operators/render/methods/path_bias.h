@@ -1,0 +1,22 @@
+// The bias of methods that read light near a point (pictures/picture_bias.h), in the series and in its report.
+#pragma once
+
+#include "operators/render/methods/bounce_series.h"
+#include "operators/render/report/picture_bias.h"
+#include "operators/statistics/series_moments.h"
+
+namespace neumann {
+
+// The picture with its bias, if the method has one; `difference()` is its picture of the differences between two radii.
+template <class Difference>
+Estimate with_bias(Estimate picture, const Difference& difference, PathGenerator generator, const SeriesMoments::Result& result) {
+    if (result.has_differences()) picture.discretisation = stated_bias(generator, difference());
+    return picture;
+}
+
+// `relative` is without the noise of the difference itself. In the sum that is taken to be, with photon maps, what it is for their
+// kernel if all noise is of photons: its variance is half of the picture's; and with a cache that of the terms, as if they were
+// independent.
+void report_bias(const Film& film, const SeriesMoments::Result& result, PathGenerator generator, BounceSeries& series);
+
+}  // namespace neumann

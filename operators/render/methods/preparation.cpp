@@ -1,0 +1,125 @@
+#include "operators/render/methods/preparation.h"
+
+#include "core/base/error.h"
+#include "operators/fields/patches/shape_areas.h"
+#include "operators/paths/corrected/approximation.h"
+#include "operators/paths/guided/guide.h"
+#include "operators/render/from_fields/field_goal.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace neumann {
+
+namespace {
+
+// A scene of boxes and a limit of a second are no reason to do without.
+constexpr double part_of_time = 1.0 / 3.0, short_preparation = 0.5;
+double longest_preparation(double seconds) { return std::max(part_of_time * seconds, short_preparation); }
+// The rays of a guide's tables can be fewer, down to one in a cell, and so can the patches of `corrected`.
+constexpr std::uint32_t fewest_of_table = CellDistribution::cells;
+constexpr std::size_t fewest_patches = 250;
+
+// A ray for fields or tables takes less than one of the pilot's walks: it has no shading, begins where others do, and asks nothing
+// about what is near. A face is joined to its neighbours. Measured with 1000 patches (tests/bench/bench_mesh.py), foretold in
+// brackets: in a room with a body of 1000, 30,000 and 10⁶ triangles 0.12 (0.10), 0.17 (0.12) and 0.63 s (0.47), in a cave of the
+// latter two 0.37 (0.34) and 1.3 s (1.6).
+constexpr double price_of_ray = 0.6, seconds_of_face = 3e-7;
+
+using Shapes = std::vector<Preparations::ShapeSides>;
+// `least`: patches of a shape.
+double facets_of(const Shapes& shapes, double patches, double least = 1.0) {
+    double facets = 0.0;
+    for (const Preparations::ShapeSides& shape : shapes)
+        if (shape.share > 0.0) facets += shape.sides * std::max(patches * shape.share, least);
+    return facets;
+}
+
+struct Needs {
+    double facets, rays;
+};
+Needs needs_of(const method::Guided& guided, const Shapes& shapes) {
+    const GuideSettings defaults;
+    const double each = defaults.field_rays + TracedSeriesSettings{}.light_samples + guided.directions.value_or(defaults.rays);
+    const double facets = facets_of(shapes, static_cast<double>(guided.patches.value_or(defaults.patches)));
+    return {facets, each * facets};
+}
+Needs needs_of(const method::Corrected& corrected, const Shapes& shapes) {
+    const ApproximationSettings defaults;
+    const double rays = corrected.directions.value_or(defaults.rays),
+                 each = 2.0 * rays + CellDistribution::cells + FieldRaster::rays_of_facet;
+    const double facets = facets_of(shapes, static_cast<double>(corrected.patches.value_or(defaults.patches)));
+    return {facets, each * facets};
+}
+template <HasFields M>
+Needs needs_of(const M&, const Shapes& shapes) {
+    const FieldSettings first = first_of_search(FieldSettings(), FieldSettings());
+    const double facets = facets_of(shapes, static_cast<double>(first.patching.patches), 4.0);  // as Patching::compared
+    return {facets, static_cast<double>(first.replicates) * (static_cast<double>(first.rays) + first.light_samples) * facets};
+}
+template <class M>
+requires(!HasFields<M>) Needs needs_of(const M&, const Shapes&) { return {0.0, 0.0}; }
+
+// The method, and with what the user has left open less and less fine.
+std::vector<Method> less_and_less_fine(const Method& method) {
+    std::vector<Method> all{method};
+    if (const auto* guided = std::get_if<method::Guided>(&method); guided && !guided->directions) {
+        method::Guided coarser = *guided;
+        for (std::uint32_t rays = GuideSettings().rays / 2; rays >= fewest_of_table; rays /= 2) {
+            coarser.directions = rays;
+            all.emplace_back(coarser);
+        }
+    }
+    if (const auto* corrected = std::get_if<method::Corrected>(&method); corrected && !corrected->patches) {
+        method::Corrected coarser = *corrected;
+        for (std::size_t patches = ApproximationSettings().patches / 2; patches >= fewest_patches; patches /= 2) {
+            coarser.patches = patches;
+            all.emplace_back(coarser);
+        }
+    }
+    return all;
+}
+
+}  // namespace
+
+Preparations::Preparations(const Scene& scene, const Pilot& pilot) : seconds_per_ray_(pilot.seconds_per_ray()) {
+    const std::vector<ShapeArea> areas = shape_areas(scene.geometry);
+    const double area = sum_of_areas(areas);
+    for (std::uint32_t shape = 0; shape < areas.size(); ++shape) {
+        const bool front = scene.materials.at(shape, true) || scene.emitters.is_emitter(shape);
+        faces_ += scene.geometry.primitive_count(shape);
+        shapes_.push_back(
+            {area > 0.0 ? areas[shape].area / area : 0.0, (front ? 1.0 : 0.0) + (scene.materials.at(shape, false) ? 1.0 : 0.0)});
+    }
+}
+
+Preparation Preparations::of(const Method& method) const {
+    const Needs needs = std::visit([&](const auto& m) { return needs_of(m, shapes_); }, method);
+    if (needs.facets == 0.0) return {};
+    return {needs.facets, needs.rays, price_of_ray * needs.rays * seconds_per_ray_ + seconds_of_face * faces_};
+}
+
+double cut_off_preparation(double seconds) { return 1.5 * longest_preparation(seconds); }
+
+std::optional<Method> Preparations::fitting(double seconds, const Method& method) const {
+    for (const Method& m : less_and_less_fine(method))
+        if (of(m).seconds <= seconds) return m;
+    return std::nullopt;
+}
+
+Method Preparations::in_time(double seconds, const Method& method) const {
+    if (const auto fits = fitting(longest_preparation(seconds), method)) return *fits;
+    const Preparation preparation = of(method);
+    throw InputError(fmt::format(
+        "--method {}: {}, and a third of {:.3g} s at most may go into that; take --time {:.0f}, --spp, or --method walk",
+        name_of(method), describe(preparation), seconds, std::ceil(preparation.seconds / part_of_time)));
+}
+
+std::string describe(const Preparation& preparation) {
+    return fmt::format("its fields on {:.0f} patches would take about {:.{}f} s to make", preparation.facets, preparation.seconds,
+                       preparation.seconds < 9.95 ? 1 : 0);
+}
+
+}  // namespace neumann

@@ -1,0 +1,46 @@
+// A render's check-up: traces some of its paths again and inspects every ray.
+#pragma once
+
+#include "operators/render/from_paths/energy_balance.h"
+#include "operators/render/from_paths/picture_sampler.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace neumann {
+
+// Whether a ray hits the surface that it leaves: the hit lies in the plane of the starting point, within the rounding errors of
+// both points.
+bool is_self_hit(const SurfacePoint& from, const SurfacePoint& to);
+
+struct SelfHit {
+    int bounce;  // number of reflections before the ray
+    SampleName name;
+    std::uint32_t shape;
+    double distance;
+    auto operator<=>(const SelfHit&) const = default;
+};
+
+struct Checkup {
+    std::uint64_t paths = 0, rays = 0;  // inspected; only rays that leave a surface to find the next hit are counted
+    std::uint64_t self_hits = 0;
+    std::vector<SelfHit> first_self_hits;  // in order of bounce and sample
+    // Upper bound, with 95% confidence, on the fraction of rays that hit their own surface (Poisson).
+    double self_hits_at_most() const;
+
+    // Of the subpaths from the camera and from the lights; missing if the method's path weights are not energy.
+    std::optional<EnergyBalance> camera, light;
+};
+
+// Why the paths of a method are not checked, or have no balance; "" where they are, and have one. Of a mixture it is the methods'
+// own matter.
+std::string why_no_checkup(PathGenerator generator);
+std::string why_no_balance(PathGenerator generator);
+
+// Checks about 16,000 paths of a render with `samples` samples per pixel, spread evenly over pixels and samples; fewer if they are
+// long. With `metropolis`: of the independent paths, from which chains start. With a mixture: of each method. Returns nothing if
+// why_no_checkup() says why. The same bits on any number of threads.
+std::optional<Checkup> check_up(const Scene& scene, const PictureSampler& sampler, std::uint64_t samples);
+
+}  // namespace neumann

@@ -1,0 +1,22 @@
+// What else to try against a firefly. The answer depends on which reflections of its path are by a delta lobe (mirror, glass,
+// hole), where no other strategy can make the path.
+#pragma once
+
+#include "operators/render/from_paths/picture_sampler.h"
+
+#include <vector>
+
+namespace neumann {
+
+enum class Remedy {
+    ask_lights,     // the walk with multiple importance sampling: the vertex that hit the light could have sampled it
+    bidirectional,  // two neighbouring vertices, or the camera and the first vertex, can be connected: paths from the lights find
+                    // light behind a delta lobe more often than walks hit it by chance
+    more_bounces    // the rest is sampled from the camera alone, so a larger N helps
+};
+
+// The remedies that scene and path allow for a sample of a quantity (bounce 0 … N or the rest); several are to be combined. Empty
+// if every method makes such a path by chance only.
+std::vector<Remedy> remedies(const Scene& scene, const PictureSampler& sampler, const SampleName& name, std::size_t quantity);
+
+}  // namespace neumann
