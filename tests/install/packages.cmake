@@ -37,7 +37,7 @@ expect(libneumann-pictures
   "Package: libneumann-pictures\n;Section: libs\n;Depends: [^\n]*libopenexr[^\n]*libopenimageio" "share/doc/libneumann-pictures/copyright")
 expect(libneumann-dev
   "Package: libneumann-dev\n;Section: libdevel\n;Depends: [^\n]*libembree-dev"
-  "include/neumann/core/scene/scene.h;include/neumann/operators/series/neumann_series.h;share/doc/libneumann-dev/copyright")
+  "include/neumann/core/scene/scene.h;include/neumann/operators/algebra/neumann_series.h;share/doc/libneumann-dev/copyright")
 if(PYTHON)
   expect(python3-neumann
     "Package: python3-neumann\n;Section: python\n;Depends: [^\n]*libneumann-pictures[^\n]*python3-numpy, python3-scipy, [^\n]*libembree;Recommends: python3-matplotlib"
