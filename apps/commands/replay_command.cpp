@@ -61,8 +61,10 @@ int replay_command(const ReplayRequest& request) {
     const auto [samples, name] = samplers.find(chosen.name);
     const Replay found = samples.replay(name);
     const Pixel pixel = pixel_of(scene.film, chosen.name.pixel);
-    const MixedSampler* mixed = samples.sampler().mixed();
-    const std::string method = mixed ? fmt::format("mixed ({})", mixed->part_of(name).method) : name_of(run.render.method);
+    const PathSampler& paths = samples.sampler().paths();
+    const char* const of_render = name_of(run.render.method);
+    const std::string method =
+        paths.parts() > 0 ? fmt::format("{} ({})", of_render, paths.part_of(name).method) : std::string(of_render);
     const auto unsound = std::find_if(found.steps.begin(), found.steps.end(), [](const ReplayedStep& s) { return !is_finite(s); });
 
     if (request.json) {

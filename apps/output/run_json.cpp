@@ -7,8 +7,10 @@
 #include "apps/output/files/scene_json.h"
 #include "apps/output/files/ways_files.h"
 #include "core/geometry/ray_caster.h"
-#include "operators/paths/cache/record_places.h"
-#include "operators/render/from_paths/mixture.h"
+#include "operators/render/from_paths/cache_sampler.h"
+#include "operators/render/from_paths/mixed_sampler.h"
+#include "operators/render/from_paths/photon_sampler.h"
+#include "operators/render/from_paths/walk_paths.h"
 
 #include <algorithm>
 #include <cmath>
@@ -186,16 +188,17 @@ Json samples_json(const BounceSeries& series) {
         if (paths->first_replicate > 0) json["first_replicate"] = paths->first_replicate;
         for (const SeedRange& range : paths->merged)
             json["merged"].push_back({{"seed", range.seed}, {"first_replicate", range.first}, {"replicates", range.count}});
-        if (paths->records) json["records"] = records_json(*paths->records);
-        if (paths->photons) json["photons"] = photons_json(*paths->photons, *paths, series.report.bounces.size() - 1);
+        if (const auto* cache = as<CachePaths>(paths->paths)) json["records"] = records_json(cache->records());
+        if (const auto* photon = as<PhotonPaths>(paths->paths))
+            json["photons"] = photons_json(photon->pilot(), *paths, series.report.bounces.size() - 1);
         if (paths->most_of_pixel > 0)
             json["of_a_pixel_in_a_replicate"] = {{"fewest", paths->fewest_of_pixel}, {"most", paths->most_of_pixel}};
-        if (paths->tree) {
+        if (const auto* walk = as<WalkPaths>(paths->paths); walk && walk->tree()) {
             json["at_depths"] = {1.0};
-            for (const double ratio : paths->tree->of_depths)
+            for (const double ratio : walk->tree()->of_depths)
                 json["at_depths"].push_back(json["at_depths"].back().get<double>() * ratio);
         }
-        if (paths->mixture) json["mixture"] = mixture_json(*paths->mixture);
+        if (const auto* mixed = as<MixedPaths>(paths->paths)) json["mixture"] = mixture_json(mixed->mixture());
         if (!paths->chains.empty()) json["chains"] = chains_json(paths->chains);
         for (const auto& [albedo, walk] : paths->furnaces)
             json["walks_in_a_furnace"].push_back({{"albedo", albedo},

@@ -38,7 +38,7 @@ std::unique_ptr<Job> start_records(const std::shared_ptr<LoadedScene>& loaded, i
     return std::make_unique<Job>(0, [=](Job& job) -> Job::Finish {
         job.tell("placing records");
         const auto points = std::make_shared<const std::vector<RecordPoint>>(
-            record_points(*loaded->scene, settings_of(cache), bounces, seed, default_memory(), {.stop = interrupted}));
+            record_points(*loaded->scene, cache.settings(), bounces, seed, default_memory(), {.stop = interrupted}));
         return [points, bounces] { return as_dict(*points, bounces); };
     });
 }

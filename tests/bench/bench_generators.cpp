@@ -5,7 +5,11 @@
 //     bench_generators [SCENE.xml [RESOLUTION [SECONDS]]]
 #include "core/reader/read_scene.h"
 #include "operators/paths/guided/guide.h"
+#include "operators/render/from_paths/classic_paths.h"
+#include "operators/render/from_paths/guided_paths.h"
 #include "operators/render/from_paths/rendered_series.h"
+#include "operators/render/from_paths/splat_sampler.h"
+#include "operators/render/from_paths/surface_paths.h"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -54,19 +58,24 @@ int main(int argc, char** argv) {
     const Scene scene = read_scene(path, {{"res", resolution}});
 
     std::vector<Generator> generators;
-    for (const auto& [name, method] :
-         {std::pair("walk", PathGenerator::walk), std::pair("guided", PathGenerator::guided),
-          std::pair("surface", PathGenerator::surface), std::pair("classic", PathGenerator::classic),
-          std::pair("light", PathGenerator::light), std::pair("bidirectional", PathGenerator::bidirectional)}) {
+    const std::pair<const char*, std::shared_ptr<const PathMethod>> methods[] = {
+        {"walk", plain_walks()},
+        {"guided", nullptr},  // made below
+        {"surface", std::make_shared<const SurfacePaths>()},
+        {"classic", std::make_shared<const ClassicPaths>()},
+        {"light", std::make_shared<const LightPaths>()},
+        {"bidirectional", std::make_shared<const BidirectionalPaths>()}};
+    for (const auto& [name, method] : methods) {
         Generator g{.name = name, .settings = {}};
-        g.settings.generator = method;
         g.settings.replicate_size = largest_replicate;
         g.settings.walk.bounces = bounces;
-        if (method == PathGenerator::guided)
+        if (method)
+            g.settings.method = method;
+        else
             g.setup = seconds_of([&] {
                 GuideSettings guide;
                 guide.bounces = bounces;
-                g.settings.guide = std::make_shared<const Guide>(scene, guide);
+                g.settings.method = std::make_shared<const GuidedPaths>(std::make_shared<const Guide>(scene, guide));
             });
         g.sampler = std::make_unique<PictureSampler>(scene, g.settings);
         g.moments = std::make_unique<SeriesMoments>(g.sampler->width(), g.sampler->height(), g.sampler->quantities());

@@ -5,6 +5,7 @@
 //     bench_reuse [RESOLUTION [SAMPLES]] [SCENE.xml …]
 #include "core/reader/read_scene.h"
 #include "operators/render/from_paths/picture_sampler.h"
+#include "operators/render/from_paths/walk_paths.h"
 #include "tests/bench/bench_arguments.h"
 
 #include <fmt/format.h>
@@ -28,7 +29,7 @@ struct Work {
 
 Work measure(const Scene& scene, std::uint32_t sharing, std::uint32_t samples) {
     SamplingSettings settings{.walk = {.bounces = bounces, .rest_probability = 0.0}, .seed = 1, .replicate_size = 16};
-    settings.sharing_pixels = sharing;
+    settings.method = std::make_shared<const WalkPaths>(sharing);
     const PictureSampler sampler(scene, settings);
     Tally tally(sampler.quantities());
     SeriesMoments series(sampler.width(), sampler.height(), sampler.quantities());

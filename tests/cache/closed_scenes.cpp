@@ -4,6 +4,7 @@
 #include "core/reader/read_scene.h"
 #include "operators/experiments/known/enclosures.h"
 #include "operators/paths/cache/record_places.h"
+#include "operators/render/from_paths/cache_sampler.h"
 #include "operators/render/methods/method_options.h"
 #include "tests/physics/picture_blocks.h"
 #include "tests/physics/seed.h"
@@ -87,7 +88,7 @@ TEST(CacheClosedScenes, HaveTheSameBitsOnAnyNumberOfThreads) {
         const SamplingSettings settings = cache_settings(scene, "32");
         Tally tally(settings.quantities());
         std::vector<double> all = PictureSampler(scene, settings).run(1, 1, tally)->data;
-        for (const Record& record : settings.records->records()) {
+        for (const Record& record : as<CachePaths>(settings.method)->records().records()) {
             all.push_back(record.radius);
             for (int i = 0; i < 3; ++i) all.push_back(record.x.position[i]);
         }

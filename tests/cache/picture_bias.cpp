@@ -1,13 +1,16 @@
 // The bias that pictures of a cache state: three times the root mean square of the differences nearby.
 #include "operators/render/report/picture_bias.h"
 
+#include "operators/render/from_paths/cache_sampler.h"
+#include "operators/render/from_paths/photon_sampler.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 namespace neumann::picture_bias_test {
 
-constexpr PathGenerator cache = PathGenerator::cache;
+const TwoRadii cache = *CachePaths(nullptr).two_radii();
 
 TEST(PictureBias, OfTheSameDifferenceEverywhereIsThreeTimesIt) {
     for (const auto& [width, height] : {std::pair{40, 33}, std::pair{3, 50}, std::pair{1, 1}}) {
@@ -37,7 +40,7 @@ TEST(PictureBias, OfOnePixelIsSpreadOverItsNeighbourhood) {
 TEST(PictureBias, OfPhotonMapsIsThatOfThePixel) {
     Image difference(5, 4);
     difference.at(1, 2) = Rgb(-0.1);
-    const Image bias = stated_bias(PathGenerator::photon, difference);
+    const Image bias = stated_bias(*PhotonPaths(nullptr).two_radii(), difference);
     EXPECT_NEAR(bias.at(1, 2).g, 0.1 / (1.0 - std::sqrt(0.5)), 1e-12);
     EXPECT_EQ(bias.at(1, 1).g, 0.0);
 }

@@ -1,6 +1,9 @@
 // The balance of energy is kept by what is right, and tells what is wrong.
 #include "core/reader/read_scene.h"
 #include "operators/paths/walk/walk.h"
+#include "operators/render/from_paths/metropolis_sampler.h"
+#include "operators/render/from_paths/splat_sampler.h"
+#include "operators/render/from_paths/surface_paths.h"
 #include "operators/render/report/checkup.h"
 #include "operators/render/report/watched_paths.h"
 #include "tests/physics/picture_blocks.h"
@@ -104,19 +107,25 @@ TEST(EnergyBalance, IsKeptInRoomsOfManyThings) {
         const auto file = [](const char* name) { return std::string(name) + ".xml"; };
         const Scene scene = read_scene(TEST_DATA "/generators/room.xml",
                                        {{"light", file(light)}, {"camera", file(camera)}, {"things", file(things)}});
-        for (const PathGenerator method : {PathGenerator::walk, PathGenerator::light, PathGenerator::bidirectional,
-                                           PathGenerator::metropolis, PathGenerator::surface}) {
-            SamplingSettings settings{.generator = method,
+        const std::pair<const char*, std::shared_ptr<const PathMethod>> methods[] = {
+            {"walk", plain_walks()},
+            {"light", std::make_shared<const LightPaths>()},
+            {"bidirectional", std::make_shared<const BidirectionalPaths>()},
+            {"metropolis", std::make_shared<const MetropolisPaths>()},
+            {"surface", std::make_shared<const SurfacePaths>()}};
+        for (const auto& [name, method] : methods) {
+            SamplingSettings settings{.method = method,
                                       .walk = {.bounces = bounces, .rest_probability = 0.0},
                                       .seed = physics::fixed_seed,
                                       .replicate_size = 16};
             const Checkup found = *check_up(scene, PictureSampler(scene, settings), 64);
-            SCOPED_TRACE(std::string(light) + " " + things + " " + std::to_string(static_cast<int>(method)));
+            SCOPED_TRACE(std::string(light) + " " + things + " " + name);
             EXPECT_EQ(found.self_hits, 0u);
             EXPECT_GT(found.paths, 1000u);
-            const bool from_both = method == PathGenerator::bidirectional || method == PathGenerator::metropolis;
-            EXPECT_EQ(found.camera.has_value(), method == PathGenerator::walk || from_both);
-            EXPECT_EQ(found.light.has_value(), method == PathGenerator::light || from_both);
+            const std::string method_name = name;
+            const bool from_both = method_name == "bidirectional" || method_name == "metropolis";
+            EXPECT_EQ(found.camera.has_value(), method_name == "walk" || from_both);
+            EXPECT_EQ(found.light.has_value(), method_name == "light" || from_both);
             for (const auto* half : {&found.camera, &found.light}) {
                 if (!*half) continue;
                 for (std::size_t bounce = 1; bounce <= (*half)->bounces.size(); ++bounce) {
@@ -137,13 +146,13 @@ TEST(EnergyBalanceSlow, OfAMixtureIsThatOfItsMethods) {
     const PictureSampler sampler(scene, settings);
     const Checkup found = *check_up(scene, sampler, 64);
     std::uint64_t paths = 0, rays = 0;
-    for (std::uint64_t part = 0; part < sampler.mixed()->parts(); ++part) {
-        const Checkup own = *check_up(scene, sampler.mixed()->part_of({0, part}).sampler, 64);
+    for (std::uint64_t part = 0; part < sampler.paths().parts(); ++part) {
+        const Checkup own = *check_up(scene, sampler.paths().part_of({0, part}).sampler, 64);
         EXPECT_GT(own.rays, 1000u);
         paths += own.paths;
         rays += own.rays;
     }
-    EXPECT_GT(sampler.mixed()->parts(), 1u);
+    EXPECT_GT(sampler.paths().parts(), 1u);
     EXPECT_EQ(found.paths, paths);
     EXPECT_EQ(found.rays, rays);
     EXPECT_EQ(found.self_hits, 0u);
@@ -159,7 +168,7 @@ TEST(SelfHits, OfCorrectedFieldsAreLookedFor) {
     EXPECT_GT(found.rays, 2 * found.paths) << "several directions of most paths";
     EXPECT_EQ(found.self_hits, 0u);
     EXPECT_FALSE(found.camera || found.light);
-    EXPECT_NE(why_no_balance(settings.generator), "");
+    EXPECT_NE(settings.method->why_no_balance(), "");
 }
 
 // What is close is told apart in double, and no gap that doubles hold is a self-hit.
@@ -185,14 +194,14 @@ TEST(SelfHits, ANarrowGapIsNone) {
 // Two points of one rectangle, of which `surface` chooses many, do not see each other.
 TEST(SelfHits, PointsThatAreChosenAreNone) {
     const Scene scene = read_scene(SCENES "/floating-panels/floating-panels.xml", {{"res", "32"}});
-    for (const PathGenerator method : {PathGenerator::walk, PathGenerator::surface}) {
-        const SamplingSettings settings{.generator = method,
+    for (const bool are_chosen : {false, true}) {
+        const SamplingSettings settings{.method = are_chosen ? std::make_shared<const SurfacePaths>() : plain_walks(),
                                         .walk = {.bounces = 3, .rest_probability = 0.0},
                                         .seed = physics::fixed_seed,
                                         .replicate_size = 16};
         const Checkup found = *check_up(scene, PictureSampler(scene, settings), 64);
         EXPECT_EQ(found.self_hits, 0u);
-        EXPECT_EQ(found.rays > 1000, method == PathGenerator::walk);
+        EXPECT_EQ(found.rays > 1000, !are_chosen);
     }
 }
 

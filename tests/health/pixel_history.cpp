@@ -3,9 +3,11 @@
 #include "operators/render/report/pixel_history.h"
 
 #include "core/reader/read_scene.h"
-#include "operators/paths/corrected/approximation.h"
-#include "operators/paths/guided/guide.h"
-#include "operators/paths/photons/photon_pilot.h"
+#include "operators/render/from_paths/corrected_sampler.h"
+#include "operators/render/from_paths/guided_paths.h"
+#include "operators/render/from_paths/photon_sampler.h"
+#include "operators/render/from_paths/splat_sampler.h"
+#include "operators/render/from_paths/surface_paths.h"
 
 #include <gtest/gtest.h>
 
@@ -20,16 +22,22 @@ const Scene& room() {
     return scene;
 }
 
-SamplingSettings settings(PathGenerator generator) {
-    SamplingSettings s{.generator = generator, .walk = {.bounces = 3, .rest_probability = 0.7}, .seed = 5, .replicate_size = 4};
-    if (generator == PathGenerator::guided)
-        s.guide = std::make_shared<const Guide>(room(), GuideSettings{.patches = 100, .bounces = 3, .seed = 5});
-    if (generator == PathGenerator::corrected)
-        s.approximation = std::make_shared<const Approximation>(
-            room(), ApproximationSettings{.patches = 100, .rays = 16, .bounces = 3, .seed = 5});
-    if (generator == PathGenerator::photon)
-        s.photons = std::make_shared<const PhotonPilot>(room(), PhotonChoice{1000, {}, false}, s.sampler, s.seed);
-    return s;
+SamplingSettings settings(const std::shared_ptr<const PathMethod>& method = plain_walks()) {
+    return {.method = method, .walk = {.bounces = 3, .rest_probability = 0.7}, .seed = 5, .replicate_size = 4};
+}
+
+std::shared_ptr<const PathMethod> made(const std::string& method) {
+    if (method == "guided")
+        return std::make_shared<const GuidedPaths>(
+            std::make_shared<const Guide>(room(), GuideSettings{.patches = 100, .bounces = 3, .seed = 5}));
+    if (method == "corrected")
+        return std::make_shared<const CorrectedPaths>(std::make_shared<const Approximation>(
+            room(), ApproximationSettings{.patches = 100, .rays = 16, .bounces = 3, .seed = 5}));
+    if (method == "photon")
+        return std::make_shared<const PhotonPaths>(
+            std::make_shared<const PhotonPilot>(room(), PhotonChoice{1000, {}, false}, SamplerKind::sobol, 5));
+    if (method == "surface") return std::make_shared<const SurfacePaths>();
+    return plain_walks();
 }
 
 // Of replicates 0 to n − 1.
@@ -40,10 +48,10 @@ SeriesMoments rendered(const PictureSampler& sampler, std::uint64_t n) {
     return moments;
 }
 
-class PixelHistoryOf : public testing::TestWithParam<PathGenerator> {};
+class PixelHistoryOf : public testing::TestWithParam<const char*> {};
 
 TEST_P(PixelHistoryOf, EveryPointIsAPicture) {
-    const PictureSampler sampler(room(), settings(GetParam()));
+    const PictureSampler sampler(room(), settings(made(GetParam())));
     const std::uint32_t pixel = 7 * 4 + 3;
     const ReplicatesOf all[] = {{sampler, 0, replicates}};
     const PixelHistory history = history_of_pixel(all, pixel);
@@ -67,12 +75,10 @@ TEST_P(PixelHistoryOf, EveryPointIsAPicture) {
     EXPECT_NEAR(history.points[2].interval_factor, 3.1824, 1e-4);  // Student's t, 3 degrees of freedom, 0.975
 }
 
-INSTANTIATE_TEST_SUITE_P(Generator, PixelHistoryOf,
-                         testing::Values(PathGenerator::walk, PathGenerator::guided, PathGenerator::corrected,
-                                         PathGenerator::photon, PathGenerator::surface));
+INSTANTIATE_TEST_SUITE_P(Generator, PixelHistoryOf, testing::Values("walk", "guided", "corrected", "photon", "surface"));
 
 TEST(PixelHistory, LargestSamplesBringMost) {
-    const PictureSampler sampler(room(), settings(PathGenerator::walk));
+    const PictureSampler sampler(room(), settings());
     const ReplicatesOf all[] = {{sampler, 0, replicates}};
     const PixelHistory history = history_of_pixel(all, 24);
     const std::vector<std::size_t> order = history.largest(1000);
@@ -90,7 +96,7 @@ TEST(PixelHistory, LargestSamplesBringMost) {
 
 // Two seeds: the means of both together.
 TEST(PixelHistory, SeedsComeOneAfterTheOther) {
-    SamplingSettings other = settings(PathGenerator::walk);
+    SamplingSettings other = settings();
     const PictureSampler first(room(), other);
     other.seed = 6;
     const PictureSampler second(room(), other);
@@ -108,9 +114,11 @@ TEST(PixelHistory, SeedsComeOneAfterTheOther) {
 }
 
 TEST(PixelHistory, WhatOtherPixelsBringIsNotInIt) {
-    EXPECT_EQ(why_no_history(PictureSampler(room(), settings(PathGenerator::walk))), "");
-    for (const PathGenerator generator : {PathGenerator::light, PathGenerator::bidirectional})
-        EXPECT_EQ(why_no_history(PictureSampler(room(), settings(generator))), "the paths of all pixels bring light to it");
+    EXPECT_EQ(why_no_history(PictureSampler(room(), settings())), "");
+    const std::shared_ptr<const PathMethod> from_lights[] = {std::make_shared<const LightPaths>(),
+                                                             std::make_shared<const BidirectionalPaths>()};
+    for (const auto& method : from_lights)
+        EXPECT_EQ(why_no_history(PictureSampler(room(), settings(method))), "the paths of all pixels bring light to it");
 }
 
 }  // namespace neumann::pixel_history_test

@@ -1,5 +1,8 @@
 // What a firefly's path says may help against it: a lamp that is found by chance behind glass is found from its own end,
 // where the path has a place to be joined; one that could have been asked for is to be asked for.
+#include "operators/render/from_paths/pointwise_paths.h"
+#include "operators/render/from_paths/splat_sampler.h"
+#include "operators/render/from_paths/surface_paths.h"
 #include "operators/render/report/remedy.h"
 #include "operators/render/report/replay.h"
 #include "tests/physics/scene_maker.h"
@@ -41,49 +44,49 @@ std::vector<Remedy> remedies_of_largest(const Scene& scene, const SamplingSettin
     return remedies(scene, sampler, name, quantity);
 }
 
-SamplingSettings settings(PathGenerator method, DirectLight direct = DirectLight::mis) {
-    return {.generator = method, .walk = {.bounces = bounces, .direct = {direct}}, .seed = 3, .replicate_size = size};
+SamplingSettings settings(const std::shared_ptr<const PathMethod>& method, DirectLight direct = DirectLight::mis) {
+    return {.method = method, .walk = {.bounces = bounces, .direct = {direct}}, .seed = 3, .replicate_size = size};
 }
 
 using Remedies = std::vector<Remedy>;
 
 TEST(Remedies, ALampBehindGlassIsFoundFromItsOwnEnd) {
     const Scene scene = under_glass(matte(0.8), true);
-    EXPECT_EQ(remedies_of_largest(scene, settings(PathGenerator::walk), 2), Remedies{Remedy::bidirectional});
-    EXPECT_EQ(remedies_of_largest(scene, settings(PathGenerator::walk, DirectLight::bsdf), 2), Remedies{Remedy::bidirectional});
+    EXPECT_EQ(remedies_of_largest(scene, settings(plain_walks()), 2), Remedies{Remedy::bidirectional});
+    EXPECT_EQ(remedies_of_largest(scene, settings(plain_walks(), DirectLight::bsdf), 2), Remedies{Remedy::bidirectional});
     EXPECT_EQ(remedies_of_largest(scene, {.walk = {.bounces = 1}, .seed = 3, .replicate_size = size}, 2),
               (Remedies{Remedy::bidirectional, Remedy::more_bounces}));
 }
 
 TEST(Remedies, ALampThatIsSeenIsAskedFor) {
     const Scene scene = under_glass(matte(0.8), false);
-    EXPECT_EQ(remedies_of_largest(scene, settings(PathGenerator::walk, DirectLight::bsdf), 1), Remedies{Remedy::ask_lights});
+    EXPECT_EQ(remedies_of_largest(scene, settings(plain_walks(), DirectLight::bsdf), 1), Remedies{Remedy::ask_lights});
 }
 
 // The floor is a mirror: every vertex is a delta, and nothing can be joined.
 TEST(Remedies, NothingHelpsWhereNothingCanBeJoined) {
     const Scene scene = under_glass(made_of(Conductor({}, Rgb(0.9))), true);
-    const PictureSampler sampler(scene, settings(PathGenerator::walk));
+    const PictureSampler sampler(scene, settings(plain_walks()));
     for (std::uint32_t pixel = 0; pixel < 256; ++pixel) EXPECT_EQ(remedies(scene, sampler, {pixel, 0}, 2), Remedies());
 }
 
 TEST(Remedies, NotWhatTheSceneRefuses) {
     Scene scene = under_glass(matte(0.8), true);
     scene.hide_emitters = true;
-    EXPECT_EQ(remedies_of_largest(scene, settings(PathGenerator::walk), 2), Remedies());
+    EXPECT_EQ(remedies_of_largest(scene, settings(plain_walks()), 2), Remedies());
 }
 
 // In both halves nothing is left to try but bounces that are made from both ends.
 TEST(Remedies, OfOtherMethods) {
     const Scene scene = under_glass(matte(0.8), true);
-    const auto of = [&](PathGenerator method, std::size_t quantity) {
+    const auto of = [&](const std::shared_ptr<const PathMethod>& method, std::size_t quantity) {
         return remedies(scene, PictureSampler(scene, settings(method)), {0, 0}, quantity);
     };
-    EXPECT_EQ(of(PathGenerator::pointwise, 2), Remedies{Remedy::bidirectional});
-    EXPECT_EQ(of(PathGenerator::surface, 2), Remedies{Remedy::ask_lights});
-    EXPECT_EQ(of(PathGenerator::light, 2), Remedies{Remedy::bidirectional});
-    EXPECT_EQ(of(PathGenerator::bidirectional, 2), Remedies());
-    EXPECT_EQ(of(PathGenerator::bidirectional, bounces + 1), Remedies{Remedy::more_bounces});
+    EXPECT_EQ(of(std::make_shared<const PointwisePaths>(), 2), Remedies{Remedy::bidirectional});
+    EXPECT_EQ(of(std::make_shared<const SurfacePaths>(), 2), Remedies{Remedy::ask_lights});
+    EXPECT_EQ(of(std::make_shared<const LightPaths>(), 2), Remedies{Remedy::bidirectional});
+    EXPECT_EQ(of(std::make_shared<const BidirectionalPaths>(), 2), Remedies());
+    EXPECT_EQ(of(std::make_shared<const BidirectionalPaths>(), bounces + 1), Remedies{Remedy::more_bounces});
 }
 
 }  // namespace neumann::remedies_test

@@ -3,6 +3,8 @@
 #include "core/reader/read_scene.h"
 #include "operators/paths/cache/record_places.h"
 #include "operators/paths/photons/photon_pilot.h"
+#include "operators/render/from_paths/cache_sampler.h"
+#include "operators/render/from_paths/photon_sampler.h"
 #include "operators/render/methods/method_options.h"
 #include "operators/render/methods/sampling.h"
 #include "operators/render/report/replay.h"
@@ -68,9 +70,9 @@ TEST_P(ReplayEvery, PixelsAreTheMeansOfReplayedSamples) {
         const double* mean = node.data.data() + k * PixelMoments::doubles_per_quantity;
         const Rgb rendered(mean[0], mean[1], mean[2]), replayed = (own[k] + splatted[k]) * (1.0 / size);
         // What comes from the lights is added to the rest in another order here, and what chains leave to all bounces.
-        if (sampler.settings().generator == PathGenerator::metropolis && q > 0)
+        if (sampler.settings().method->has_chains() && q > 0)
             for (int c = 0; c < 3; ++c) EXPECT_NEAR(rendered[c], replayed[c], 1e-12 * std::abs(rendered[c]));
-        else if (splats(sampler.settings().generator) && q == Q - 1)
+        else if (sampler.settings().method->splats() && q == Q - 1)
             for (int c = 0; c < 3; ++c) EXPECT_NEAR(rendered[c], replayed[c], 1e-14 * std::abs(rendered[c]));
         else
             EXPECT_TRUE(same_bits(rendered, replayed))
@@ -85,7 +87,7 @@ TEST_P(ReplayEvery, StepsBringWhatTheSampleIsWorth) {
     const PictureSampler sampler(scene, settings());
     for (std::uint32_t pixel = 0; pixel < 49; pixel += 6) {
         const Replay found = replay(sampler, {pixel, 2});
-        if (sampler.settings().generator != PathGenerator::light) {
+        if (sampler.settings().method->starts_at_camera()) {
             EXPECT_FALSE(found.steps.empty());
         }
         std::vector<Rgb> sum(sampler.quantities(), Rgb(0.0));
@@ -115,10 +117,10 @@ INSTANTIATE_TEST_SUITE_P(MethodsSlow, ReplayEvery,
 // After the walk comes the path of the photon that brings most, joined ray by ray, and it ends where the walk read the map.
 TEST(Replay, APhotonIsFollowedToItsLight) {
     const Scene scene = read_scene(SCENES "/cornell-box/cornell-box.xml", {{"res", "16"}});
-    SamplingSettings settings{.generator = PathGenerator::photon, .walk = {.bounces = 3}, .replicate_size = 4};
-    settings.photons = std::make_shared<const PhotonPilot>(scene, PhotonChoice{20000, {}, false}, settings.sampler, 0);
-    const PictureSampler sampler(scene, settings);
-    const double radius = settings.photons->settings.radius;
+    const auto pilot = std::make_shared<const PhotonPilot>(scene, PhotonChoice{20000, {}, false}, SamplerKind::sobol, 0);
+    const PictureSampler sampler(
+        scene, {.method = std::make_shared<const PhotonPaths>(pilot), .walk = {.bounces = 3}, .replicate_size = 4});
+    const double radius = pilot->settings.radius;
     int followed = 0;
     for (std::uint32_t pixel = 0; pixel < 256; pixel += 17) {
         const Replay found = replay(sampler, {pixel, 6});
@@ -145,10 +147,10 @@ TEST(Replay, APhotonIsFollowedToItsLight) {
 // After the walk comes a ray of the record that brings most, and then the rays by which it goes on.
 TEST(Replay, ARecordIsFollowedAlongItsBrightestRay) {
     const Scene scene = read_scene(SCENES "/cornell-box/cornell-box.xml", {{"res", "16"}});
-    SamplingSettings settings{.generator = PathGenerator::cache, .walk = {.bounces = 3}, .replicate_size = 4};
-    settings.records =
-        std::make_shared<const RecordPlaces>(scene, CacheSettings{Spacing::hessian, 0.1, 64}, settings.sampler, 0, 1e9);
-    const PictureSampler sampler(scene, settings);
+    const auto places =
+        std::make_shared<const RecordPlaces>(scene, CacheSettings{Spacing::hessian, 0.1, 64}, SamplerKind::sobol, 0, 1e9);
+    const PictureSampler sampler(
+        scene, {.method = std::make_shared<const CachePaths>(places), .walk = {.bounces = 3}, .replicate_size = 4});
     int followed = 0;
     for (std::uint32_t pixel = 0; pixel < 256; pixel += 17) {
         const Replay found = replay(sampler, {pixel, 6});
@@ -156,7 +158,7 @@ TEST(Replay, ARecordIsFollowedAlongItsBrightestRay) {
             std::ranges::find_if(found.steps, [](const ReplayedStep& s) { return s.step.kind == PathStep::Kind::record; });
         if (ray == found.steps.end()) continue;
         ++followed;
-        const auto& records = settings.records->records();
+        const auto& records = places->records();
         const auto record = std::ranges::find_if(records, [&](const Record& r) { return r.x.position == ray->step.from.position; });
         ASSERT_NE(record, records.end());
         EXPECT_TRUE(record->is_seen);

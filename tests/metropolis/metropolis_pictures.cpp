@@ -30,6 +30,8 @@ SamplingSettings settings_of(const Scene& scene, const Method& method, int bounc
     settings.walk.bounces = bounces;
     settings.walk.rest_probability = rest;
     settings.replicate_size = size;
+    Prepared prepared(seed);
+    set_up(method, scene, bounces, 1e9, settings, prepared);
     return settings;
 }
 

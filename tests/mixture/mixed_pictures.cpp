@@ -1,6 +1,9 @@
 // Pictures of mixtures beside those of single methods, bounce by bounce.
 #include "core/reader/read_scene.h"
+#include "operators/render/from_paths/metropolis_sampler.h"
+#include "operators/render/from_paths/mixed_sampler.h"
 #include "operators/render/from_paths/mixture.h"
+#include "operators/render/from_paths/splat_sampler.h"
 #include "operators/render/methods/method_options.h"
 #include "operators/render/report/replay.h"
 #include "operators/statistics/student_t.h"
@@ -21,9 +24,7 @@ Scene scene_of(const std::string& name, int resolution) {
     return read_scene(fmt::format(SCENES "/{}/{}.xml", name, name), {{"res", std::to_string(resolution)}});
 }
 
-constexpr PathGenerator mixed_generators[] = {PathGenerator::walk, PathGenerator::guided, PathGenerator::bidirectional,
-                                              PathGenerator::light, PathGenerator::metropolis};
-constexpr std::size_t parts = std::size(mixed_generators);
+constexpr std::size_t parts = 5;
 
 // Five methods, with weights and numbers of samples that nothing asks for: some blocks and bounces miss a method, some pixels have
 // no samples of one, if they can have samples of their own.
@@ -39,12 +40,13 @@ Mixture patchwork(const SamplingSettings& guided, std::uint32_t pixels, std::uin
         numbers[1].exponents.push_back(b % 2 == 0 ? Allocation::none : 0);
         numbers[2].exponents.push_back(b == 4 ? Allocation::none : -1);
     }
+    const std::shared_ptr<const PathMethod> methods[parts] = {plain_walks(), guided.method, std::make_shared<const BidirectionalPaths>(),
+                                                              std::make_shared<const LightPaths>(),
+                                                              std::make_shared<const MetropolisPaths>()};
     for (std::size_t m = 0; m < parts; ++m) {
-        const bool has_even = has_even_samples(mixed_generators[m]);
+        const bool has_even = methods[m]->has_even_samples();
         mixture.parts.push_back({fmt::format("method {}", m),
-                                 mixed_generators[m],
-                                 m == 1 ? guided.guide : nullptr,
-                                 {},
+                                 methods[m],
                                  {},
                                  has_even ? nullptr : std::make_shared<const Allocation>(numbers[m]),
                                  static_cast<std::int8_t>(m == 3 ? -1 : 1),
@@ -68,10 +70,8 @@ SamplingSettings patchwork_settings(const Scene& scene, int bounces, std::uint64
     SamplingSettings settings = physics::settings_of(scene, method::Guided{}, bounces, seed, rest);
     const auto width = static_cast<std::uint32_t>(scene.film.crop_width),
                height = static_cast<std::uint32_t>(scene.film.crop_height);
-    settings.mixture =
-        std::make_shared<const Mixture>(patchwork(settings, width * height, width, static_cast<std::size_t>(bounces)));
-    settings.guide = {};
-    settings.generator = PathGenerator::mixed;
+    settings.method = std::make_shared<const MixedPaths>(
+        std::make_shared<const Mixture>(patchwork(settings, width * height, width, static_cast<std::size_t>(bounces))));
     return settings;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "operators/render/from_paths/picture_sampler.h"
+#include "operators/render/methods/prepared.h"
 #include "operators/render/methods/sampling.h"
 #include "operators/render/report/picture_bias.h"
 
@@ -17,7 +18,7 @@ class Blocks {
 public:
     Blocks(const Scene& scene, const SamplingSettings& settings, int block, std::uint64_t replicates,
            SeriesMoments* pixels = nullptr)
-        : terms_(settings.pictures()), replicates_(replicates), generator_(settings.generator) {
+        : terms_(settings.pictures()), replicates_(replicates), radii_(settings.method->two_radii()) {
         const PictureSampler sampler(scene, settings);
         const std::size_t Q = settings.quantities();
         const auto width = static_cast<std::size_t>(sampler.width()), size = static_cast<std::size_t>(block);
@@ -60,12 +61,12 @@ public:
         for (std::uint64_t r = 0; r < n; ++r)
             v.error += std::pow(all_[r][(block * quantities_ + term) * 3 + channel] - v.mean, 2.0);
         v.error = std::sqrt(v.error / (count * (count - 1.0)));
-        if (quantities_ > terms_) v.bias = std::abs(mean(terms_ + term)) / part_of_bias(generator_);
+        if (quantities_ > terms_) v.bias = std::abs(mean(terms_ + term)) / radii_->part_of_bias;
         return v;
     }
     // The mean over the block of the bias that a render of all replicates states.
     double stated_bias(std::size_t block, std::size_t term, std::size_t channel) const {
-        const Image bias = neumann::stated_bias(generator_, differences_.at(term));
+        const Image bias = neumann::stated_bias(*radii_, differences_.at(term));
         const int left = static_cast<int>(block % columns_ * size_), top = static_cast<int>(block / columns_ * size_),
                   size = static_cast<int>(size_);
         double sum = 0.0;
@@ -86,7 +87,7 @@ public:
 private:
     std::size_t terms_, quantities_ = 0, columns_ = 0, blocks_ = 0, size_ = 0;
     std::uint64_t replicates_;
-    PathGenerator generator_;
+    std::optional<TwoRadii> radii_;
     std::vector<Image> differences_;  // of terms between two radii, means over replicates
     std::vector<std::vector<double>> all_;
 };

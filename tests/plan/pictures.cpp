@@ -2,6 +2,8 @@
 // does.
 #include "core/reader/read_scene.h"
 #include "operators/render/from_fields/field_rendering.h"
+#include "operators/render/from_paths/classic_paths.h"
+#include "operators/render/from_paths/surface_paths.h"
 #include "operators/render/plan/plan.h"
 #include "tests/physics/pictures.h"
 #include "tests/physics/seed.h"
@@ -19,9 +21,9 @@ namespace neumann::physics::pictures_test {
 constexpr int bounces = 4;
 
 Pictures rendered(const Scene& scene, const LeftOut& left_out, SamplerKind sampler, double rest,
-                  PathGenerator method = PathGenerator::walk, std::uint64_t replicates = 4) {
+                  const std::shared_ptr<const PathMethod>& method = plain_walks(), std::uint64_t replicates = 4) {
     return render(scene,
-                  {.generator = method,
+                  {.method = method,
                    .walk = {.bounces = bounces, .left_out = left_out, .rest_probability = rest, .give_up = 50},
                    .sampler = sampler,
                    .seed = fixed_seed,
@@ -124,7 +126,9 @@ TEST(PlannedPictures, OfScenesThatNeedLittle) {
 // The other methods that walk take the same decisions, but for the kernels.
 TEST(PlannedPictures, OfOtherMethods) {
     for (const Scene& scene : {lit_room({0.7, 0.5, 0.3}), box_under(poles()), point_lit_room({0.7, 0.5, 0.3})})
-        for (const PathGenerator method : {PathGenerator::surface, PathGenerator::classic}) {
+        for (const bool surface : {true, false}) {
+            std::shared_ptr<const PathMethod> method = std::make_shared<const ClassicPaths>();
+            if (surface) method = std::make_shared<const SurfacePaths>();
             LeftOut left_out = make_plan(scene).walk;
             expect_same_bits(rendered(scene, left_out, SamplerKind::sobol, 0.0, method),
                              rendered(scene, {}, SamplerKind::sobol, 0.0, method));

@@ -24,7 +24,7 @@ SamplingSettings settings(const std::string& word, const Scene& scene) {
     const Method method = read_method(word);
     SamplingSettings all = sampling_settings(method, scene, {}, seed);
     all.walk.bounces = bounces;
-    all.walk.rest_probability = all.generator == PathGenerator::pointwise ? 0.0 : 0.7;
+    all.walk.rest_probability = std::holds_alternative<method::Pointwise>(method) ? 0.0 : 0.7;
     all.walk.give_up = 4;
     all.replicate_size = 4;
     Prepared prepared(seed);

@@ -1,6 +1,7 @@
 // Walks that use each other's tails: the terms of the walk, whatever they share, with less variance for as many rays.
 #include "core/reader/read_scene.h"
 #include "operators/render/from_paths/picture_sampler.h"
+#include "operators/render/from_paths/walk_paths.h"
 #include "tests/physics/picture_blocks.h"
 #include "tests/physics/seed.h"
 
@@ -22,7 +23,7 @@ Scene scene_of(const char* name, const char* resolution) {
 }
 
 SamplingSettings reusing(SamplingSettings settings) {
-    settings.sharing_pixels = 8;
+    settings.method = std::make_shared<const WalkPaths>(8u);
     settings.seed += 1;
     return settings;
 }
@@ -66,10 +67,10 @@ TEST(ReusingWalkSlow, HasTheTermsOfTheWalk) {
 // ρ^k to rounding, while that of a pixel is so on average only.
 TEST(ReusingWalk, SharesOutWhatAFurnaceHas) {
     const Scene scene = read_scene(SCENES "/furnace/furnace.xml", {{"res", "24"}});
-    const SamplingSettings settings{.walk = {.bounces = 4, .direct = {.direct = DirectLight::bsdf}, .rest_probability = 0.0},
+    const SamplingSettings settings{.method = std::make_shared<const WalkPaths>(8u),
+                                    .walk = {.bounces = 4, .direct = {.direct = DirectLight::bsdf}, .rest_probability = 0.0},
                                     .seed = fixed_seed,
-                                    .replicate_size = 8,
-                                    .sharing_pixels = 8};
+                                    .replicate_size = 8};
     const PictureSampler sampler(scene, settings);
     Tally tally(sampler.quantities());
     SeriesMoments series(24, 24, sampler.quantities());
@@ -162,7 +163,9 @@ TEST(ReusingWalk, HasLessVarianceForItsRays) {
 // over renders is the mean square of the stated errors, to 4.5 standard deviations of such a ratio, √(2/399).
 TEST(ReusingWalk, StatesTheErrorOfMeansOverPixels) {
     const Scene scene = scene_of("cornell-box", "8");
-    SamplingSettings settings{.walk = {.bounces = 3, .rest_probability = 0.0}, .replicate_size = 4, .sharing_pixels = 8};
+    SamplingSettings settings{.method = std::make_shared<const WalkPaths>(8u),
+                              .walk = {.bounces = 3, .rest_probability = 0.0},
+                              .replicate_size = 4};
     std::vector<double> means;
     double stated = 0.0;
     constexpr int renders = 400;

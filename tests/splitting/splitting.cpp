@@ -6,6 +6,7 @@
 #include "operators/paths/walk/tree_pilot.h"
 #include "operators/paths/walk/tree_ratios.h"
 #include "operators/render/from_paths/picture_sampler.h"
+#include "operators/render/from_paths/walk_paths.h"
 #include "tests/physics/picture_blocks.h"
 #include "tests/physics/seed.h"
 
@@ -20,6 +21,10 @@ namespace neumann::splitting_test {
 
 using physics::Blocks;
 using physics::fixed_seed;
+
+std::shared_ptr<const PathMethod> tree_walks(const TreeRatios& ratios) {
+    return std::make_shared<const WalkPaths>(std::make_shared<const TreeRatios>(ratios));
+}
 
 // Two depths: m_1 = √((D_1/c_1) / (D_0/c_0)) where that is above 1.
 TEST(BestTree, OfTwoDepthsHasTheClosedForm) {
@@ -90,7 +95,7 @@ TEST(TreeNumbers, CostWhatTheyCostInRenders) {
     };
     const auto walk = rays();
     const std::vector<double> cost(walk.begin(), walk.end()), ratios{8.0, 0.5, 1.5};
-    settings.tree = std::make_shared<const TreeRatios>(TreeRatios{ratios});
+    settings.method = tree_walks({ratios});
     const auto tree = rays();
     const auto sum = [](const auto& of) { return static_cast<double>(std::accumulate(of.begin(), of.end(), std::uint64_t{0})); };
     EXPECT_NEAR(sum(tree) / sum(walk), walks_of_tree(ratios, cost), 0.01 * walks_of_tree(ratios, cost));
@@ -147,7 +152,7 @@ TEST(TreeWalkSlow, HasTheTermsOfTheWalk) {
         for (const auto& ratios : all_ratios) {
             SamplingSettings settings = walk;
             settings.seed = fixed_seed + 1;
-            settings.tree = std::make_shared<const TreeRatios>(TreeRatios{ratios});
+            settings.method = tree_walks({ratios});
             const Blocks tree(scene, settings, 6, 128);
             int within = 0, all = 0;
             for (std::size_t q = 0; q <= 4; ++q)
@@ -176,7 +181,7 @@ TEST(TreeWalkSlow, FindsLightOnceByAllStrategies) {
                                   .replicate_size = 16};
         const Blocks exact(scene, settings, 16, 384);
         settings.seed = fixed_seed + 1;
-        settings.tree = std::make_shared<const TreeRatios>(TreeRatios{{1.5, 0.7, 1.5}});
+        settings.method = tree_walks({{1.5, 0.7, 1.5}});
         const Blocks tree(scene, settings, 16, 384);
         for (std::size_t q = 1; q <= 3; ++q) {
             const auto x = exact.at(0, q, 1, 384), y = tree.at(0, q, 1, 384);
@@ -196,11 +201,11 @@ TEST(TreeWalk, HasTheVarianceThatThePilotPredicts) {
     TreeRatios ratios;
     for (std::size_t j = 1; j < numbers.size(); ++j) ratios.of_depths.push_back(numbers[j] / numbers[j - 1]);
     EXPECT_LT(ratios.of_depths[0], 0.5);  // the edge of the lamp has most of the variance
-    const SamplingSettings settings{.walk = {.bounces = bounces, .rest_probability = 0.0},
+    const SamplingSettings settings{.method = tree_walks(ratios),
+                                    .walk = {.bounces = bounces, .rest_probability = 0.0},
                                     .sampler = SamplerKind::independent,
                                     .seed = fixed_seed + 1,
-                                    .replicate_size = 1,
-                                    .tree = std::make_shared<const TreeRatios>(ratios)};
+                                    .replicate_size = 1};
     const PictureSampler sampler(scene, settings);
     Tally tally(sampler.quantities());
     SeriesMoments series(12, 12, sampler.quantities());

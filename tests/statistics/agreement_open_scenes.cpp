@@ -2,6 +2,7 @@
 // picture.
 #include "core/reader/read_scene.h"
 #include "operators/render/from_fields/field_rendering.h"
+#include "operators/render/from_paths/pointwise_paths.h"
 #include "operators/render/from_paths/rendered_series.h"
 #include "operators/render/report/series_report.h"
 #include "operators/statistics/picture_statistics.h"
@@ -41,9 +42,10 @@ Scene open_scene(const std::string& lights) {
     return scene;
 }
 
-RenderedSeries sample(const Scene& scene, PathGenerator method, DirectLight direct, std::uint64_t seed, std::uint64_t samples) {
+RenderedSeries sample(const Scene& scene, const std::shared_ptr<const PathMethod>& method, DirectLight direct, std::uint64_t seed,
+                      std::uint64_t samples) {
     PictureSampler::Settings settings;
-    settings.generator = method;
+    settings.method = method;
     settings.walk = {.bounces = bounces, .direct = {direct}, .rest_probability = 0.0};
     settings.seed = seed;
     settings.replicate_size = 16;
@@ -72,11 +74,11 @@ void expect_alike(const Means& a, const Means& b, const std::string& what, doubl
 
 void expect_agreement(const std::string& lights, bool found_by_chance) {
     const Scene scene = open_scene(lights);
-    const Means walked = means(sample(scene, PathGenerator::walk, DirectLight::mis, 1, 2048));
-    expect_alike(means(sample(scene, PathGenerator::walk, DirectLight::light, 2, 2048)), walked, "walk by lights alone");
+    const Means walked = means(sample(scene, plain_walks(), DirectLight::mis, 1, 2048));
+    expect_alike(means(sample(scene, plain_walks(), DirectLight::light, 2, 2048)), walked, "walk by lights alone");
     if (found_by_chance) {
-        expect_alike(means(sample(scene, PathGenerator::walk, DirectLight::bsdf, 3, 2048)), walked, "walk by chance alone");
-        expect_alike(means(sample(scene, PathGenerator::pointwise, DirectLight::mis, 4, 1024)), walked, "pointwise");
+        expect_alike(means(sample(scene, plain_walks(), DirectLight::bsdf, 3, 2048)), walked, "walk by chance alone");
+        expect_alike(means(sample(scene, std::make_shared<const PointwisePaths>(), DirectLight::mis, 4, 1024)), walked, "pointwise");
     }
     for (const FieldReading method : {FieldReading::matrix, FieldReading::gather}) {
         FieldSettings settings;

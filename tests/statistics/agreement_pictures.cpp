@@ -1,7 +1,9 @@
 // The walk and the plain operators say the same of every bounce of the Cornell box: pictures of 32×32 pixels, their means and those
 // of blocks of 8×8.
 #include "core/reader/read_scene.h"
+#include "operators/render/from_paths/guided_paths.h"
 #include "operators/render/from_paths/picture_sampler.h"
+#include "operators/render/from_paths/pointwise_paths.h"
 #include "tests/physics/seed.h"
 
 #include <gtest/gtest.h>
@@ -14,14 +16,10 @@ namespace neumann::agreement_pictures_test {
 
 constexpr int resolution = 32, bounces = 4;
 
-SeriesMoments::Result render(const Scene& scene, PathGenerator method, DirectLight direct, std::uint64_t seed,
-                             std::uint64_t samples) {
+SeriesMoments::Result render(const Scene& scene, const std::shared_ptr<const PathMethod>& method, DirectLight direct,
+                             std::uint64_t seed, std::uint64_t samples) {
     constexpr std::uint32_t replicate_size = 16;
-    std::shared_ptr<const Guide> guide;
-    if (method == PathGenerator::guided)
-        guide = std::make_shared<const Guide>(scene, GuideSettings{.patches = 500, .rays = 256, .bounces = bounces, .seed = seed});
-    const PictureSampler sampler(scene, {.generator = method,
-                                         .guide = guide,
+    const PictureSampler sampler(scene, {.method = method,
                                          .walk = {.bounces = bounces, .direct = {direct}, .rest_probability = 0.0},
                                          .sampler = SamplerKind::sobol,
                                          .seed = seed,
@@ -70,10 +68,10 @@ void compare_blocks(const Estimate& a, const Estimate& b, int size, const std::s
 // bounce 0 and rises to 1% for bounce 4, in the light's weak blue to 2%.
 TEST(AgreementSlow, OfTheOperatorsAndTheWalkInEveryBounce) {
     const Scene scene = read_scene(SCENES "/cornell-box/cornell-box.xml", {{"res", std::to_string(resolution)}});
-    const auto operators = render(scene, PathGenerator::pointwise, DirectLight::bsdf, 1, 8192);
+    const auto operators = render(scene, std::make_shared<const PointwisePaths>(), DirectLight::bsdf, 1, 8192);
     Comparison found;
     for (const DirectLight direct : {DirectLight::mis, DirectLight::bsdf, DirectLight::light}) {
-        const auto walk = render(scene, PathGenerator::walk, direct, 2 + static_cast<std::uint64_t>(direct),
+        const auto walk = render(scene, plain_walks(), direct, 2 + static_cast<std::uint64_t>(direct),
                                  direct == DirectLight::bsdf ? 4096 : 512);
         for (std::size_t i = 0; i <= bounces; ++i)
             for (const int size : {resolution, 8}) {
@@ -97,11 +95,13 @@ TEST_P(AgreementOfGuidedSlow, WithTheWalkInEveryBounce) {
     const std::string name = GetParam();
     const Scene scene = read_scene(SCENES "/" + name + "/" + name + ".xml", {{"res", std::to_string(resolution)}});
     const std::uint64_t samples = name == "metal-room" ? 4096 : 1024;
-    const auto walk = render(scene, PathGenerator::walk, DirectLight::mis, physics::fixed_seed, 2 * samples);
+    const auto walk = render(scene, plain_walks(), DirectLight::mis, physics::fixed_seed, 2 * samples);
     Comparison found;
     for (const DirectLight direct : {DirectLight::mis, DirectLight::light}) {
-        const auto guided =
-            render(scene, PathGenerator::guided, direct, physics::fixed_seed + 1 + static_cast<std::uint64_t>(direct), samples);
+        const std::uint64_t seed = physics::fixed_seed + 1 + static_cast<std::uint64_t>(direct);
+        const auto guide = std::make_shared<const GuidedPaths>(std::make_shared<const Guide>(
+            scene, GuideSettings{.patches = 500, .rays = 256, .bounces = bounces, .seed = seed}));
+        const auto guided = render(scene, guide, direct, seed, samples);
         for (std::size_t i = 0; i <= bounces; ++i)
             for (const int size : {resolution, 8}) {
                 const std::string what =

@@ -2,6 +2,11 @@
 #include "core/emitter/environment_map.h"
 #include "operators/paths/guided/guide.h"
 #include "operators/render/from_paths/bounded_samples.h"
+#include "operators/render/from_paths/classic_paths.h"
+#include "operators/render/from_paths/guided_paths.h"
+#include "operators/render/from_paths/pointwise_paths.h"
+#include "operators/render/from_paths/splat_sampler.h"
+#include "operators/render/from_paths/surface_paths.h"
 #include "operators/render/report/series_report.h"
 #include "tests/physics/scene_maker.h"
 
@@ -40,30 +45,37 @@ Scene balls(int resolution) {
     return maker.make();
 }
 
-SamplingSettings settings_of(PathGenerator method, const Scene& scene, std::uint64_t seed) {
-    SamplingSettings settings{.generator = method,
-                              .walk = {.bounces = bounces, .rest_probability = method == PathGenerator::pointwise ? 0.0 : 0.2},
-                              .seed = seed,
-                              .replicate_size = 8};
-    if (method == PathGenerator::guided)
-        settings.guide =
-            std::make_shared<const Guide>(scene, GuideSettings{.patches = 200, .rays = 256, .bounces = bounces, .seed = seed});
-    return settings;
+std::shared_ptr<const PathMethod> made(const std::string& method, const Scene& scene, std::uint64_t seed = 1) {
+    if (method == "guided")
+        return std::make_shared<const GuidedPaths>(std::make_shared<const Guide>(
+            scene, GuideSettings{.patches = 200, .rays = 256, .bounces = bounces, .seed = seed}));
+    if (method == "pointwise") return std::make_shared<const PointwisePaths>();
+    if (method == "bidirectional") return std::make_shared<const BidirectionalPaths>();
+    if (method == "light") return std::make_shared<const LightPaths>();
+    if (method == "surface") return std::make_shared<const SurfacePaths>();
+    if (method == "classic") return std::make_shared<const ClassicPaths>();
+    return plain_walks();
 }
 
-constexpr PathGenerator methods[] = {PathGenerator::walk, PathGenerator::guided, PathGenerator::pointwise,
-                                     PathGenerator::bidirectional};
+SamplingSettings settings_of(const std::string& method, const Scene& scene, std::uint64_t seed) {
+    return {.method = made(method, scene, seed),
+            .walk = {.bounces = bounces, .rest_probability = method == "pointwise" ? 0.0 : 0.2},
+            .seed = seed,
+            .replicate_size = 8};
+}
+
+const std::string methods[] = {"walk", "guided", "pointwise", "bidirectional"};
 
 // As many samples as the alarm wants, of every method. What it says of the tails is left to chance: some look infinite.
 TEST(AlarmSlow, OneSceneHasOneVerdict) {
     const Scene scene = balls(36);
     int rare = 0, looked_at = 0;
-    for (const PathGenerator method : methods)
+    for (const std::string& method : methods)
         for (std::uint64_t seed = 1; seed <= 3; ++seed) {
             const RenderedSeries series = render_series(scene, settings_of(method, scene, seed), {64, std::nullopt, std::nullopt});
             const SeriesReport report = report_series(scene, series, RestVerdict::measured);
-            EXPECT_FALSE(report.infinite_variance()) << static_cast<int>(method);
-            EXPECT_FALSE(report.rest_infinite_variance) << static_cast<int>(method);
+            EXPECT_FALSE(report.infinite_variance()) << method;
+            EXPECT_FALSE(report.rest_infinite_variance) << method;
             for (const BounceReport& b : report.bounces) {
                 EXPECT_FALSE(b.infinite_variance && b.rare_large_samples);
                 rare += b.rare_large_samples;
@@ -77,7 +89,7 @@ TEST(AlarmSlow, OneSceneHasOneVerdict) {
 // The rest, with samples added whose tail is that of an infinite variance: where that cannot be, they are rare and no more.
 TEST(BoundedSamples, TheRestHasTheSameVerdict) {
     const Scene scene = balls(4);
-    const auto verdict = [&](PathGenerator method, const Roulette& roulette) {
+    const auto verdict = [&](const std::string& method, const Roulette& roulette) {
         SamplingSettings settings = settings_of(method, scene, 1);
         settings.walk.roulette = roulette;
         RenderedSeries series = render_series(scene, settings, {8, std::nullopt, std::nullopt});
@@ -88,30 +100,28 @@ TEST(BoundedSamples, TheRestHasTheSameVerdict) {
         EXPECT_NE(report.rest_infinite_variance, report.rest_rare_large_samples);
         return report.rest_infinite_variance ? "infinite" : "rare";
     };
-    for (const PathGenerator method : {PathGenerator::walk, PathGenerator::guided, PathGenerator::bidirectional}) {
-        EXPECT_STREQ(verdict(method, {}), "rare") << static_cast<int>(method);
-        EXPECT_STREQ(verdict(method, {Roulette::Kind::albedo}), "rare") << static_cast<int>(method);
+    for (const char* method : {"walk", "guided", "bidirectional"}) {
+        EXPECT_STREQ(verdict(method, {}), "rare") << method;
+        EXPECT_STREQ(verdict(method, {Roulette::Kind::albedo}), "rare") << method;
         // The largest albedo is that of glass.
-        EXPECT_STREQ(verdict(method, {Roulette::Kind::fixed, 0.9}), "infinite") << static_cast<int>(method);
+        EXPECT_STREQ(verdict(method, {Roulette::Kind::fixed, 0.9}), "infinite") << method;
     }
-    EXPECT_STREQ(verdict(PathGenerator::light, {}), "infinite");
+    EXPECT_STREQ(verdict("light", {}), "infinite");
 }
 
 // The bound itself. Weights are at most 1 but in glass, whose n² cancel until a path has left it, so directions by the materials
 // bring at most the sun; with questions for light at most half of it more; of the ways of bidirectional each brings at most half.
 TEST(BoundedSamples, StayBelowTheirBound) {
     const Scene scene = balls(24);
-    for (const PathGenerator method : {PathGenerator::walk, PathGenerator::pointwise, PathGenerator::bidirectional}) {
+    for (const std::string method : {"walk", "pointwise", "bidirectional"}) {
         const SamplingSettings settings = settings_of(method, scene, 1);
         ASSERT_TRUE(samples_are_bounded(scene, settings));
         const RenderedSeries series = render_series(scene, settings, {64, std::nullopt, std::nullopt});
         for (int i = 1; i <= bounces; ++i) {
-            const double ways = method == PathGenerator::pointwise ? 1.0
-                                : method == PathGenerator::walk    ? 1.5
-                                                                   : 1.0 + 0.5 * (i + 1);
+            const double ways = method == "pointwise" ? 1.0 : method == "walk" ? 1.5 : 1.0 + 0.5 * (i + 1);
             const auto largest = series.tally.largest[static_cast<std::size_t>(i)].sorted();
             ASSERT_FALSE(largest.empty());
-            EXPECT_LE(largest.front(), sun * ways * (1.0 + 1e-9)) << static_cast<int>(method) << ", bounce " << i;
+            EXPECT_LE(largest.front(), sun * ways * (1.0 + 1e-9)) << method << ", bounce " << i;
         }
     }
 }
@@ -122,21 +132,20 @@ TEST(BoundedSamples, AreKnownByMethod) {
     maker.add(parallelogram({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}), matte(0.5));
     maker.parts.lights.delta = {PointLight(Vec3(0, 0, 1), Rgb(1.0))};
     const Scene point = maker.make();
-    const auto bounded = [](const Scene& scene, PathGenerator method, DirectLight direct = DirectLight::mis) {
-        return samples_are_bounded(scene, {.generator = method, .walk = {.direct = {direct}}});
+    const auto bounded = [](const Scene& scene, const std::string& method, DirectLight direct = DirectLight::mis) {
+        return samples_are_bounded(scene, {.method = made(method, scene), .walk = {.direct = {direct}}});
     };
-    for (const PathGenerator method : methods) {
+    for (const std::string& method : methods) {
         EXPECT_TRUE(bounded(sky, method));
         EXPECT_FALSE(bounded(point, method)) << "1/d² near the light";
     }
-    EXPECT_TRUE(bounded(sky, PathGenerator::walk, DirectLight::bsdf));
-    EXPECT_FALSE(bounded(sky, PathGenerator::walk, DirectLight::light));
-    EXPECT_FALSE(bounded(sky, PathGenerator::walk, DirectLight::surfaces));
-    for (const PathGenerator method : {PathGenerator::surface, PathGenerator::light, PathGenerator::classic})
+    EXPECT_TRUE(bounded(sky, "walk", DirectLight::bsdf));
+    EXPECT_FALSE(bounded(sky, "walk", DirectLight::light));
+    EXPECT_FALSE(bounded(sky, "walk", DirectLight::surfaces));
+    for (const char* method : {"surface", "light", "classic"})
         EXPECT_FALSE(bounded(sky, method));
     SamplingSettings ways;
-    ways.generator = PathGenerator::bidirectional;
-    ways.ways_of_last_bounce = true;
+    ways.method = std::make_shared<const BidirectionalPaths>(BidirectionalPaths::Quantities::ways);
     EXPECT_FALSE(samples_are_bounded(sky, ways));
 }
 
@@ -147,9 +156,7 @@ TEST(BoundedSamples, NeedALargestAlbedo) {
         SceneMaker maker;
         maker.add(Sphere{{0, 0, 0}, 1.0, true}, glowing(0.5, 1.0));
         maker.add(Sphere{{0, 0, 0}, 0.3, false}, made_of(Ward(WardLobe(variant, Beckmann(0.2)), Rgb(0.5), Rgb(0.2))));
-        SamplingSettings settings;
-        settings.generator = PathGenerator::walk;
-        EXPECT_EQ(samples_are_bounded(maker.make(), settings), variant == Variant::balanced);
+        EXPECT_EQ(samples_are_bounded(maker.make(), {}), variant == Variant::balanced);
     }
 }
 

@@ -7,6 +7,7 @@
 #include "operators/experiments/known/enclosures.h"
 #include "operators/paths/corrected/approximation.h"
 #include "operators/paths/corrected/shared_points.h"
+#include "operators/render/from_paths/corrected_sampler.h"
 #include "operators/render/from_paths/picture_sampler.h"
 #include "operators/render/report/least_errors.h"
 #include "operators/statistics/student_t.h"
@@ -34,9 +35,8 @@ SamplingSettings walk_settings(int bounces, std::uint32_t size, std::uint64_t se
 SamplingSettings corrected_settings(const Scene& scene, int bounces, std::uint32_t size, std::uint64_t seed, double rest,
                                     std::size_t patches = 300, std::uint32_t rays = 32) {
     SamplingSettings settings = walk_settings(bounces, size, seed, rest);
-    settings.generator = PathGenerator::corrected;
-    settings.approximation = std::make_shared<const Approximation>(
-        scene, ApproximationSettings{.patches = patches, .rays = rays, .bounces = bounces, .seed = seed});
+    settings.method = std::make_shared<const CorrectedPaths>(std::make_shared<const Approximation>(
+        scene, ApproximationSettings{.patches = patches, .rays = rays, .bounces = bounces, .seed = seed}));
     return settings;
 }
 

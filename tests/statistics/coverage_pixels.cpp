@@ -9,6 +9,7 @@
 #include "core/image/pixel_estimate.h"
 #include "core/reader/read_scene.h"
 #include "operators/experiments/known/scene_maker.h"
+#include "operators/render/from_paths/splat_sampler.h"
 #include "operators/render/report/least_errors.h"
 #include "operators/statistics/student_t.h"
 
@@ -136,9 +137,9 @@ Count count(const Scene& scene, const std::vector<double>& truth, const Sampling
     return all;
 }
 
-Count count_and_print(const char* name, const Scene& scene, const std::vector<double>& truth, PathGenerator method,
-                      SamplerKind sampler) {
-    const SamplingSettings settings{.generator = method, .walk = {.bounces = 1, .rest_probability = 0.0}, .sampler = sampler};
+Count count_and_print(const char* name, const Scene& scene, const std::vector<double>& truth,
+                      const std::shared_ptr<const PathMethod>& method, SamplerKind sampler) {
+    const SamplingSettings settings{.method = method, .walk = {.bounces = 1, .rest_probability = 0.0}, .sampler = sampler};
     const Count c = count(scene, truth, settings, 16, 100);
     const auto percent = [&](std::uint64_t part) { return 100.0 * static_cast<double>(part) / static_cast<double>(c.of); };
     std::printf("%-32s %.2f%% of %llu; by the spread alone %.2f%%; unmet %.2f%%; errors %.2f times the spread\n", name,
@@ -158,9 +159,9 @@ constexpr double open_from = 0.0, open_to = 30.0;
 TEST(PixelCoverageSlow, WhereALampGoesDownBehindAScreen) {
     const Scene scene = hidden_lamp(0.6, 24, open_from, open_to);
     const auto exact = truth(scene, open_from, open_to);
-    expect_right(count_and_print("walk, Sobol", scene, exact, PathGenerator::walk, SamplerKind::sobol), "Sobol");
-    expect_right(count_and_print("walk, independent", scene, exact, PathGenerator::walk, SamplerKind::independent), "independent");
-    expect_right(count_and_print("bidirectional, Sobol", scene, exact, PathGenerator::bidirectional, SamplerKind::sobol),
+    expect_right(count_and_print("walk, Sobol", scene, exact, plain_walks(), SamplerKind::sobol), "Sobol");
+    expect_right(count_and_print("walk, independent", scene, exact, plain_walks(), SamplerKind::independent), "independent");
+    expect_right(count_and_print("bidirectional, Sobol", scene, exact, std::make_shared<const BidirectionalPaths>(), SamplerKind::sobol),
                  "bidirectional");
 }
 
@@ -168,9 +169,9 @@ TEST(PixelCoverageSlow, OfASliver) {
     const double half = 0.0075;
     const Scene scene = hidden_lamp(0.2, 24, -half, half);
     const auto exact = truth(scene, -half, half);
-    for (const PathGenerator method : {PathGenerator::walk, PathGenerator::light}) {
-        const Count c = count_and_print(method == PathGenerator::walk ? "sliver, walk" : "sliver, light", scene, exact, method,
-                                        SamplerKind::sobol);
+    for (const bool from_light : {false, true}) {
+        const Count c = count_and_print(from_light ? "sliver, light" : "sliver, walk", scene, exact,
+                                        from_light ? std::make_shared<const LightPaths>() : plain_walks(), SamplerKind::sobol);
         EXPECT_GE(c.rate(), 0.95);
         EXPECT_GT(static_cast<double>(c.zeros), 0.5 * static_cast<double>(c.of)) << "a sliver that is mostly missed";
         EXPECT_LE(static_cast<double>(c.zeros_missed), 0.05 * static_cast<double>(c.of));
@@ -221,8 +222,8 @@ std::pair<Image, Image> least_errors(const Scene& scene, const SamplingSettings&
 
 TEST(LeastErrors, AreTheSameBitsOnAnyNumberOfThreads) {
     const Scene scene = hidden_lamp(0.6, 24, open_from, open_to);
-    for (const PathGenerator method : {PathGenerator::walk, PathGenerator::bidirectional}) {
-        const SamplingSettings settings{.generator = method, .walk = {.bounces = 1}, .replicate_size = 4};
+    for (const auto& method : {plain_walks(), std::shared_ptr<const PathMethod>(std::make_shared<const BidirectionalPaths>())}) {
+        const SamplingSettings settings{.method = method, .walk = {.bounces = 1}, .replicate_size = 4};
         std::vector<std::pair<Image, Image>> found;
         for (const int threads : {1, 3}) {
             const oneapi::tbb::global_control control(oneapi::tbb::global_control::max_allowed_parallelism,

@@ -30,7 +30,7 @@ PictureSampler::Settings made_settings(const Case& c, std::uint64_t seed) {
     const Method method = read_method(c.method);
     SamplingSettings settings = sampling_settings(method, cornell_box(), {}, seed);
     settings.walk.bounces = bounces;
-    settings.walk.rest_probability = settings.generator == PathGenerator::pointwise ? 0.0 : 0.7;
+    settings.walk.rest_probability = std::holds_alternative<method::Pointwise>(method) ? 0.0 : 0.7;
     settings.walk.give_up = 4;
     settings.replicate_size = 4;
     Prepared prepared(seed);

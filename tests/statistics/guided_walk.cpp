@@ -2,6 +2,7 @@
 #include "core/reader/read_scene.h"
 #include "operators/experiments/known/enclosures.h"
 #include "operators/fields/matrix/scene_patches.h"
+#include "operators/render/from_paths/guided_paths.h"
 #include "operators/statistics/picture_statistics.h"
 #include "tests/physics/material_laws.h"
 #include "tests/physics/pictures.h"
@@ -193,8 +194,7 @@ TEST(GuidedWalk, EveryPixelOfAFurnaceIsThePowerOfTheAlbedo) {
         enclosure.maker.parts.film = {8, 6, 0, 0, 8, 6};
         const Scene scene = enclosure.maker.make();
         const Pictures pictures = render(scene,
-                                         {.generator = PathGenerator::guided,
-                                          .guide = guide(scene, 100),
+                                         {.method = std::make_shared<const GuidedPaths>(guide(scene, 100)),
                                           .walk = {.bounces = 10, .direct = {DirectLight::bsdf}, .rest_probability = 0.0},
                                           .seed = fixed_seed},
                                          4);
@@ -215,8 +215,8 @@ TEST(GuidedWalk, SameBitsOnAnyThreads) {
     for (const std::size_t threads : {1, 2, 7}) {
         const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, threads);
         results.push_back(
-            render(scene, {.generator = PathGenerator::guided, .guide = guide(scene), .walk = {.bounces = 4}, .seed = fixed_seed},
-                   4)
+            render(scene,
+                   {.method = std::make_shared<const GuidedPaths>(guide(scene)), .walk = {.bounces = 4}, .seed = fixed_seed}, 4)
                 .result);
     }
     for (std::size_t i = 0; i <= 5; ++i)
@@ -230,16 +230,15 @@ TEST(GuidedWalk, SameBitsOnAnyThreads) {
 // ratio of two such sums has an error of about 3%.
 TEST(GuidedWalkSlow, HasLessVarianceThanThePlainWalk) {
     const Scene scene = cornell_box(48);
-    const auto rendered = [&](PathGenerator method) {
+    const auto rendered = [&](const std::shared_ptr<const PathMethod>& method) {
         return render(scene,
-                      {.generator = method,
-                       .guide = method == PathGenerator::guided ? guide(scene, 2000) : nullptr,
+                      {.method = method,
                        .walk = {.bounces = 7, .rest_probability = 0.0},
                        .seed = fixed_seed},
                       32)
             .result;
     };
-    const auto plain = rendered(PathGenerator::walk), guided = rendered(PathGenerator::guided);
+    const auto plain = rendered(plain_walks()), guided = rendered(std::make_shared<const GuidedPaths>(guide(scene, 2000)));
     for (std::size_t i = 2; i <= 6; ++i)
         EXPECT_LT(std::pow(relative_standard_error(guided.term(i)) / relative_standard_error(plain.term(i)), 2), 0.6) << i;
 }

@@ -2,7 +2,8 @@
 // surfaces do not touch. That `light` agrees with `walk` is the adjoint identity ⟨We, K^i Le⟩ = ⟨K*^i We, Le⟩.
 #include "core/reader/read_scene.h"
 #include "operators/render/from_paths/picture_sampler.h"
-#include "operators/render/report/missing_paths.h"
+#include "operators/render/from_paths/splat_sampler.h"
+#include "operators/render/from_paths/surface_paths.h"
 #include "tests/physics/seed.h"
 
 #include <fmt/format.h>
@@ -72,9 +73,9 @@ TEST(PathGeneratorsSlow, AgreeInTheMeanOfEveryBounce) {
     int compared = 0;
     for (const Case& c : cases) {
         const Scene scene = scene_of(c);
-        const auto find = [&](PathGenerator method, std::uint64_t seed, const Split& split = {}) {
+        const auto find = [&](const std::shared_ptr<const PathMethod>& method, std::uint64_t seed, const Split& split = {}) {
             return render(
-                scene, {.generator = method, .walk = {.bounces = bounces, .split = split, .rest_probability = 0.0}, .seed = seed},
+                scene, {.method = method, .walk = {.bounces = bounces, .split = split, .rest_probability = 0.0}, .seed = seed},
                 128);
         };
         const auto expect_agreement = [&](const Result& a, const Result& b, std::size_t i, const char* what) {
@@ -83,9 +84,9 @@ TEST(PathGeneratorsSlow, AgreeInTheMeanOfEveryBounce) {
             EXPECT_LE(std::abs(z(a.moments.mean_of_term(i), b.moments.mean_of_term(i))), limit)
                 << c.light << ", " << c.camera << ", " << c.things << ", " << what << ", bounce " << i;
         };
-        const Result walk = find(PathGenerator::walk, physics::fixed_seed),
-                     paths = find(PathGenerator::bidirectional, physics::fixed_seed + 1),
-                     trees = find(PathGenerator::bidirectional, physics::fixed_seed + 2, {3, 2});
+        const Result walk = find(plain_walks(), physics::fixed_seed),
+                     paths = find(std::make_shared<const BidirectionalPaths>(), physics::fixed_seed + 1),
+                     trees = find(std::make_shared<const BidirectionalPaths>(), physics::fixed_seed + 2, {3, 2});
         EXPECT_GT(trees.tally.rays[2], paths.tally.rays[2]);
         const bool walk_misses = std::string(c.light) == "points" && std::string(c.things) != "rough";
         for (std::size_t i = 0; i <= bounces; ++i) {
@@ -93,7 +94,7 @@ TEST(PathGeneratorsSlow, AgreeInTheMeanOfEveryBounce) {
             if (i > 0) expect_agreement(trees, paths, i, "trees");
         }
         if (!c.light_makes_all) continue;
-        const Result light = find(PathGenerator::light, physics::fixed_seed + 1);
+        const Result light = find(std::make_shared<const LightPaths>(), physics::fixed_seed + 1);
         for (std::size_t i = 0; i <= bounces; ++i) expect_agreement(light, walk, i, "light");
     }
     EXPECT_GE(compared, 35);
@@ -111,11 +112,16 @@ TEST(PathGeneratorsSlow, AgreeOnTheScenesThatCompareThem) {
         // The walk meets the lamp by way of the ball so rarely that fewer samples do not know their own error.
         const bool rare = std::string(name) == "glass-ball";
         const Result walk = render(scene, settings, rare ? 2048 : 64);
-        for (const PathGenerator method : {PathGenerator::light, PathGenerator::bidirectional, PathGenerator::surface}) {
-            if (paths_of(method, scene) != Paths::all) continue;
-            if (method == PathGenerator::surface && std::string(name) != "floating-panels") continue;
-            settings.generator = method;
-            settings.walk.direct.direct = method == PathGenerator::surface ? DirectLight::light : DirectLight::mis;
+        const std::pair<const char*, std::shared_ptr<const PathMethod>> others[] = {
+            {"light", std::make_shared<const LightPaths>()},
+            {"bidirectional", std::make_shared<const BidirectionalPaths>()},
+            {"surface", std::make_shared<const SurfacePaths>()}};
+        for (const auto& [word, method] : others) {
+            const bool on_surfaces = std::string(word) == "surface";
+            if (method->paths(scene) != Paths::all) continue;
+            if (on_surfaces && std::string(name) != "floating-panels") continue;
+            settings.method = method;
+            settings.walk.direct.direct = on_surfaces ? DirectLight::light : DirectLight::mis;
             settings.seed = physics::fixed_seed + 1;
             const Result other = render(scene, settings, 64);
             // The lamp's image in the ball, in bounce 1, and the caustic as seen through it, in bounce 4, are as rare from both
@@ -124,7 +130,7 @@ TEST(PathGeneratorsSlow, AgreeOnTheScenesThatCompareThem) {
                 if (walk.infinite(i) || other.infinite(i)) continue;
                 ++compared;
                 EXPECT_LE(std::abs(z(other.moments.mean_of_term(i), walk.moments.mean_of_term(i))), limit)
-                    << name << ", method " << static_cast<int>(method) << ", bounce " << i;
+                    << name << ", " << word << ", bounce " << i;
             }
         }
     }
@@ -139,13 +145,14 @@ TEST(PathGeneratorsSlow, AgreeInEveryPixelWithinTheirErrors) {
         const Scene scene = read_scene(TEST_DATA "/generators/panels.xml", {{"camera", camera}});
         SamplingSettings settings{.walk = {.bounces = 3, .rest_probability = 0.0}, .seed = physics::fixed_seed};
         const Result walk = render(scene, settings, 128);
-        for (const PathGenerator method : {PathGenerator::light, PathGenerator::bidirectional}) {
-            settings.generator = method;
+        for (const bool from_both : {false, true}) {
+            settings.method = std::make_shared<const LightPaths>();
+            if (from_both) settings.method = std::make_shared<const BidirectionalPaths>();
             settings.seed = physics::fixed_seed + 1;
             const Result other = render(scene, settings, 128);
             for (std::size_t i = 1; i <= 3; ++i)
                 EXPECT_LE(std::abs(excess(other.moments.term(i), walk.moments.term(i)) - 1.0), 5.0 * deviation)
-                    << camera << ", method " << static_cast<int>(method) << ", bounce " << i;
+                    << camera << (from_both ? ", bidirectional" : ", light") << ", bounce " << i;
         }
     }
 }
@@ -157,8 +164,7 @@ TEST(PathGeneratorsSlow, TheWaysToMakeABounceAgreeWithoutWeights) {
     const Scene scene = read_scene(TEST_DATA "/generators/panels.xml", {});
     SamplingSettings settings{.walk = {.bounces = bounce, .rest_probability = 0.0}, .seed = physics::fixed_seed};
     const Result walk = render(scene, settings, 256);
-    settings.generator = PathGenerator::bidirectional;
-    settings.ways_of_last_bounce = true;
+    settings.method = std::make_shared<const BidirectionalPaths>(BidirectionalPaths::Quantities::ways);
     settings.seed = physics::fixed_seed + 1;
     const Result ways = render(scene, settings, 256);
     const MeanWithError truth = walk.moments.mean_of_term(bounce);

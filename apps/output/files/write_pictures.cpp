@@ -9,6 +9,7 @@ namespace {
 
 ShownSeries shown_series(const BounceSeries& series, const Scene& scene) {
     const auto* paths = std::get_if<PathRecord>(&series.record);
+    const auto* mixed = paths ? as<MixedPaths>(paths->paths) : nullptr;
     const std::size_t bounces = series.report.bounces.size();
     return {bounces,
             series.rest.has_value(),
@@ -18,7 +19,7 @@ ShownSeries shown_series(const BounceSeries& series, const Scene& scene) {
             scene.film.crop_height,
             lenient_label(scene),
             lenient_note(scene),
-            paths ? paths->mixture.get() : nullptr,
+            mixed ? &mixed->mixture() : nullptr,
             [&series, bounces](std::size_t i) { return as_in_file(i == bounces ? *series.rest : series.term(i)); },
             [&series](std::size_t i) { return as_in_file(series.sum(i)); }};
 }

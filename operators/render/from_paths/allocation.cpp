@@ -125,7 +125,6 @@ std::shared_ptr<const Allocation> allocate(const Scene& scene, const SamplingSet
     SamplingSettings of_pilot = settings;
     of_pilot.allocation = {};
     of_pilot.colors = {};
-    of_pilot.ways_of_last_bounce = false;
     of_pilot.seed = allocation_stream;
     of_pilot.replicate_size = samples_of_pilot;
     of_pilot.walk.rest_probability = 0.0;

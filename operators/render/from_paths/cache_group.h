@@ -51,7 +51,7 @@ void CacheSampler::trace_group(std::uint64_t replicate, const PixelGroup& pixels
                 all += weight * E;
             }
             observer.reads(i,
-                           static_cast<std::uint32_t>(*largest * settings_.records->cells().size() + pass.brightest_ray(*largest)),
+                           static_cast<std::uint32_t>(*largest * records_->cells().size() + pass.brightest_ray(*largest)),
                            std::numeric_limits<std::uint32_t>::max(), all);
             return true;
         };

@@ -3,26 +3,19 @@
 #include "operators/render/from_paths/cache_group.h"
 #include "operators/render/from_paths/pixel_groups.h"
 
-#include <stdexcept>
+#include <utility>
 
 namespace neumann {
 
-namespace {
-
-const std::shared_ptr<const RecordPlaces>& places_of(const SamplingSettings& settings) {
-    if (!settings.records) throw std::logic_error("PictureSampler: the places of the cache's records are missing");
-    return settings.records;
+std::shared_ptr<const PathSampler> CachePaths::sampler(const Scene& scene, const SamplingSettings& settings) const {
+    return std::make_shared<const CacheSampler>(scene, settings, records_);
 }
 
-}  // namespace
-
-CacheSampler::CacheSampler(const Scene& scene, const SamplingSettings& settings)
-    : scene_(&scene),
-      settings_(settings),
-      layout_(settings.layout(scene.film)),
+CacheSampler::CacheSampler(const Scene& scene, const SamplingSettings& settings, std::shared_ptr<const RecordPlaces> records)
+    : PathSampler(scene, settings),
+      records_(std::move(records)),
       direct_(std::make_shared<const DirectLightSampler>(scene, settings.walk.direct)),
-      tracer_(std::make_shared<const RecordTracer>(scene, direct_, settings.walk, places_of(settings), settings.sampler,
-                                                   settings.seed)) {}
+      tracer_(std::make_shared<const RecordTracer>(scene, direct_, settings.walk, records_, settings.sampler, settings.seed)) {}
 
 bool CacheSampler::sample_picture(std::uint64_t replicate, std::vector<Rgb>& picture, SampleRanges& ranges, Tally& tally,
                                   const Watch& watch) const {

@@ -58,7 +58,7 @@ void CorrectedSampler::trace_group(std::uint64_t replicate, const PixelGroup& pi
                             observer.finds(i, 0, Le);
                         });
     work.walkers.samplers = work.camera;
-    const CorrectedWalk corrected(*scene_, *direct_, settings_.walk, *settings_.approximation, points, at_pixel);
+    const CorrectedWalk corrected(*scene_, *direct_, settings_.walk, *approximation_, points, at_pixel);
     corrected(
         work.walkers, [&](std::uint32_t i, std::uint32_t) -> Sampler& { return work.walkers.samplers[i]; },
         [&](std::uint32_t i, std::uint32_t g) -> const Sampler& {

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <stdexcept>
 
 namespace neumann {
 
@@ -24,15 +23,18 @@ std::uint32_t choose_points(double pixels, const SamplingSettings& settings) {
 
 }  // namespace
 
-CorrectedSampler::CorrectedSampler(const Scene& scene, const SamplingSettings& settings)
-    : scene_(&scene),
-      settings_(settings),
-      layout_(settings.layout(scene.film)),
+std::shared_ptr<const PathSampler> CorrectedPaths::sampler(const Scene& scene, const SamplingSettings& settings) const {
+    return std::make_shared<const CorrectedSampler>(scene, settings, approximation_);
+}
+
+CorrectedSampler::CorrectedSampler(const Scene& scene, const SamplingSettings& settings,
+                                   std::shared_ptr<const Approximation> approximation)
+    : PathSampler(scene, settings),
+      approximation_(std::move(approximation)),
       direct_(std::make_shared<const DirectLightSampler>(scene, settings.walk.direct)) {
-    if (!settings.approximation) throw std::logic_error("PictureSampler: corrected fields are missing");
     points_ = std::make_shared<const PointMaker>(
-        scene, *direct_, settings_.walk, *settings_.approximation, settings_.sampler, settings_.seed,
-        choose_points(settings_.pixels_of_points > 0 ? settings_.pixels_of_points : layout_.pixels(), settings_), at_point);
+        scene, *direct_, settings_.walk, *approximation_, settings_.sampler, settings_.seed,
+        choose_points(settings_.pixels_of_shared > 0 ? settings_.pixels_of_shared : layout_.pixels(), settings_), at_point);
     std::uint32_t largest = 1;
     for (std::uint32_t pixel = 0; pixel < layout_.pixels(); ++pixel) largest = std::max(largest, layout_.size(pixel));
     for (std::uint32_t size = 1; size <= largest; size *= 2) direction_nets_.emplace_back(size * at_pixel.directions);

@@ -3,13 +3,9 @@
 #pragma once
 
 #include "core/sampling/sampler.h"
+#include "operators/paths/corrected/approximation.h"
 #include "operators/paths/walk/observer.h"
-#include "operators/paths/walk/path_observer.h"
-#include "operators/render/from_paths/own_samples.h"
-#include "operators/render/from_paths/sampling_settings.h"
-#include "operators/render/from_paths/tally.h"
-#include "operators/statistics/series_moments.h"
-#include "operators/watch.h"
+#include "operators/render/from_paths/path_sampler.h"
 
 #include <memory>
 #include <optional>
@@ -21,22 +17,41 @@ class DirectLightSampler;
 class PointMaker;
 struct SharedPoints;
 
-class CorrectedSampler {
+// Walks from the camera that read approximate fields on patches at the second diffuse surface, whose errors are carried by points that
+// all pixels share.
+class CorrectedPaths : public PathMethod {
+public:
+    explicit CorrectedPaths(std::shared_ptr<const Approximation> approximation) : approximation_(std::move(approximation)) {}
+    const Approximation& approximation() const { return *approximation_; }
+
+    std::shared_ptr<const PathSampler> sampler(const Scene& scene, const SamplingSettings& settings) const override;
+    bool is_prepared() const override { return true; }
+    std::uint64_t rays() const override { return approximation_->rays(); }
+    double walks_worth(int, std::span<const double>) const override { return 2.0; }
+    bool is_bounded(const SamplingSettings&) const override { return true; }
+    bool has_events() const override { return false; }  // what points carry may be negative
+    std::string why_no_balance() const override { return "a walk's weight is only what points that pixels share leave to it"; }
+
+private:
+    std::shared_ptr<const Approximation> approximation_;
+};
+
+class CorrectedSampler : public PathSampler {
 public:
     // Rays for the points of a replicate, as a part of those for its pixels, roughly; of small pictures it is more.
     static constexpr double share_of_points = 0.1;
 
-    // Keeps a reference to the scene.
-    CorrectedSampler(const Scene& scene, const SamplingSettings& settings);
+    CorrectedSampler(const Scene& scene, const SamplingSettings& settings, std::shared_ptr<const Approximation> approximation);
 
-    // Adds a replicate's picture, all quantities of each pixel. Returns false if `watch` stopped it.
     bool sample_picture(std::uint64_t replicate, std::vector<Rgb>& picture, SampleRanges& ranges, Tally& tally,
-                        const Watch& watch) const;
-    // As PictureSampler::own_samples().
-    std::optional<std::uint64_t> own_samples(std::uint64_t replicate, const OwnSamples& each, const Watch& watch) const;
+                        const Watch& watch) const override;
+    std::optional<std::uint64_t> own_samples(std::uint64_t replicate, const OwnSamples& each, const Watch& watch) const override;
+    std::vector<Rgb> retrace(std::uint64_t replicate, std::uint32_t first, PathObserver& observer) const override;
+    std::unique_ptr<const PathsToInspect> to_inspect() const override;
+
     // What the pixels of a replicate share; nothing if no surface is diffuse.
     std::optional<SharedPoints> points_of(std::uint64_t replicate) const;
-    // As PictureSampler::retrace(); with these points, or null.
+    // With these points, or null.
     std::vector<Rgb> retrace(std::uint64_t replicate, std::uint32_t first, const SharedPoints* points,
                              PathObserver& observer) const;
 
@@ -48,11 +63,9 @@ private:
     void trace_group(std::uint64_t replicate, const PixelGroup& pixels, const SharedPoints* points, Workspace& work,
                      const Observer& observer = {}) const;
 
-    const Scene* scene_;
-    SamplingSettings settings_;
-    SampleLayout layout_;
+    std::shared_ptr<const Approximation> approximation_;
     std::shared_ptr<const DirectLightSampler> direct_;
-    std::shared_ptr<const PointMaker> points_;  // refers to *direct_ and to settings_.approximation
+    std::shared_ptr<const PointMaker> points_;  // refers to *direct_ and to *approximation_
     std::vector<SobolPoints> direction_nets_;   // of pixels with 1, 2, 4, … samples
 };
 

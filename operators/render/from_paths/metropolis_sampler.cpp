@@ -44,15 +44,17 @@ struct MetropolisSampler::Piece {
     ChainStatistics statistics;
 };
 
-MetropolisSampler::MetropolisSampler(const Scene& scene, const SamplingSettings& settings)
-    : scene_(&scene),
-      settings_(settings),
+std::shared_ptr<const PathSampler> MetropolisPaths::sampler(const Scene& scene, const SamplingSettings& settings) const {
+    return std::make_shared<const MetropolisSampler>(scene, settings, length_);
+}
+
+MetropolisSampler::MetropolisSampler(const Scene& scene, const SamplingSettings& settings, std::uint32_t length)
+    : PathSampler(scene, settings),
       pixels_(static_cast<std::uint32_t>(scene.film.crop_width) * static_cast<std::uint32_t>(scene.film.crop_height)),
-      numbers_(chain_numbers(std::uint64_t{pixels_} * settings.replicate_size, settings.chain_length)),
+      numbers_(chain_numbers(std::uint64_t{pixels_} * settings.replicate_size, length)),
       independent_(scene, settings.walk, settings.sampler, settings.seed,
                    independent_paths(std::uint64_t{pixels_} * settings.replicate_size, pixels_)),
-      of_chains_(scene, without_rest(settings.walk), independent_.area().pixels()),
-      layout_(settings.layout(scene.film)) {}
+      of_chains_(scene, without_rest(settings.walk), independent_.area().pixels()) {}
 
 SampleName MetropolisSampler::name(std::uint64_t replicate, std::uint32_t number) const { return layout_.name(replicate, number); }
 

@@ -8,11 +8,7 @@
 
 #include "core/sampling/sampler.h"
 #include "operators/paths/metropolis/chain_batch.h"
-#include "operators/paths/walk/path_observer.h"
-#include "operators/render/from_paths/sampling_settings.h"
-#include "operators/render/from_paths/tally.h"
-#include "operators/statistics/series_moments.h"
-#include "operators/watch.h"
+#include "operators/render/from_paths/path_sampler.h"
 
 #include <optional>
 #include <vector>
@@ -27,21 +23,40 @@ struct ChainNumbers {
 // `states`: at most so many of each bounce; `length`: of a chain, if there are enough states for chains_at_once chains.
 ChainNumbers chain_numbers(std::uint64_t states, std::uint32_t length);
 
-class MetropolisSampler {
+class MetropolisPaths : public PathMethod {
 public:
-    // Keeps a reference to the scene.
-    MetropolisSampler(const Scene& scene, const SamplingSettings& settings);
+    static constexpr std::uint32_t default_length = 512;
+    // `length`: states of a chain, where there are enough.
+    explicit MetropolisPaths(std::uint32_t length = default_length) : length_(length) {}
+    std::uint32_t length() const { return length_; }
 
-    // Adds a replicate's picture, all quantities of each pixel. Returns false if `watch` stopped it.
+    std::shared_ptr<const PathSampler> sampler(const Scene& scene, const SamplingSettings& settings) const override;
+    // By their rays: k + 1 for bounce k = 1 … N, and half an independent path.
+    double walks_worth(int bounces, std::span<const double>) const override { return 1.25 + 0.375 * bounces; }
+    bool has_even_samples() const override { return true; }
+    bool starts_at_lights() const override { return true; }
+    bool is_bounded(const SamplingSettings&) const override { return false; }
+    bool has_chains() const override { return true; }
+    std::string why_no_history() const override { return "the paths of all pixels bring light to it"; }
+    std::optional<std::vector<Remedy>> remedies(const Scene&, bool) const override { return {{Remedy::bidirectional}}; }
+
+private:
+    const char* unfound_in_mirrors() const override { return unfound_from_both_ends; }
+
+    std::uint32_t length_;
+};
+
+class MetropolisSampler : public PathSampler {
+public:
+    MetropolisSampler(const Scene& scene, const SamplingSettings& settings, std::uint32_t length);
+
     bool sample_picture(std::uint64_t replicate, std::vector<Rgb>& picture, SampleRanges& ranges, Tally& tally,
-                        const Watch& watch) const;
-    // As PictureSampler::retrace(); runs the chains of these names again, and traces all independent paths.
-    std::vector<Rgb> retrace(std::uint64_t replicate, std::uint32_t first, PathObserver& observer) const;
-
-    // Traces a group of a replicate's independent paths again, which begins with number group · chains_at_once.
-    void retrace_independent(std::uint64_t replicate, std::uint32_t group, PathObserver& observer) const;
-    std::uint32_t independent_groups() const { return independent_.groups(); }
-    std::uint32_t independent_paths_of(std::uint32_t group) const { return independent_.paths_of_group(group); }
+                        const Watch& watch) const override;
+    bool has_own_samples() const override { return false; }
+    // Runs the chains of these names again, and traces all independent paths.
+    std::vector<Rgb> retrace(std::uint64_t replicate, std::uint32_t first, PathObserver& observer) const override;
+    // The independent paths, from which chains start.
+    std::unique_ptr<const PathsToInspect> to_inspect() const override;
 
 private:
     struct Workspace;
@@ -66,13 +81,10 @@ private:
                        std::vector<std::uint64_t>& rays) const;
     std::vector<Sampler> random_of(int bounce, std::uint32_t batch) const;
 
-    const Scene* scene_;
-    SamplingSettings settings_;
     std::uint32_t pixels_;
     ChainNumbers numbers_;
     IndependentPaths independent_;
     Bidirectional of_chains_;
-    SampleLayout layout_;
 };
 
 }  // namespace neumann

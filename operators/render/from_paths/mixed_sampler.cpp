@@ -7,6 +7,7 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
+#include <stdexcept>
 #include <utility>
 
 namespace neumann {
@@ -17,13 +18,24 @@ constexpr std::uint64_t part_stream = 0x9e3779b97f4a7c15ULL;
 
 }  // namespace
 
-SamplingSettings settings_of_part(const SamplingSettings& settings, std::size_t part) {
-    const Mixture::Part& of = settings.mixture->parts[part];
+std::shared_ptr<const PathSampler> MixedPaths::sampler(const Scene& scene, const SamplingSettings& settings) const {
+    return std::make_shared<const MixedSampler>(scene, settings, mixture_);
+}
+
+bool MixedPaths::is_bounded(const SamplingSettings& settings) const { return settings.walk.direct.direct == DirectLight::mis; }
+
+bool MixedPaths::has_events() const {
+    return std::ranges::all_of(mixture_->parts, [](const Mixture::Part& part) { return part.paths->has_events(); });
+}
+
+bool MixedPaths::has_chains() const {
+    return std::ranges::any_of(mixture_->parts, [](const Mixture::Part& part) { return part.paths->has_chains(); });
+}
+
+SamplingSettings settings_of_part(const SamplingSettings& settings, const Mixture& mixture, std::size_t part) {
+    const Mixture::Part& of = mixture.parts[part];
     SamplingSettings own = settings;
-    own.mixture = {};
-    own.generator = of.generator;
-    own.guide = of.guide;
-    own.approximation = of.approximation;
+    own.method = of.paths;
     own.allocation = of.allocation;
     own.walk.left_out = of.left_out;
     if (!of.allocation) own.replicate_size = Allocation::size_of(settings.replicate_size, of.exponent);
@@ -31,16 +43,15 @@ SamplingSettings settings_of_part(const SamplingSettings& settings, std::size_t 
     return own;
 }
 
-MixedSampler::MixedSampler(const Scene& scene, const SamplingSettings& settings)
-    : film_(&scene.film),
-      settings_(settings),
+MixedSampler::MixedSampler(const Scene& scene, const SamplingSettings& settings, std::shared_ptr<const Mixture> mixture)
+    : PathSampler(scene, settings),
       width_(static_cast<std::uint32_t>(scene.film.crop_width)),
       height_(static_cast<std::uint32_t>(scene.film.crop_height)),
-      mixture_(settings.mixture) {
+      mixture_(std::move(mixture)) {
     for (std::size_t part = 0; part < mixture_->parts.size(); ++part) {
-        parts_.push_back(std::make_shared<const PictureSampler>(scene, settings_of_part(settings, part)));
+        parts_.push_back(std::make_shared<const PictureSampler>(scene, settings_of_part(settings, *mixture_, part)));
         const SampleLayout& layout = parts_.back()->layout();
-        splats_.push_back(splats(mixture_->parts[part].generator)
+        splats_.push_back(mixture_->parts[part].paths->splats()
                               ? static_cast<double>(layout.paths()) / layout.pixels() / settings.replicate_size
                               : 0.0);
     }
@@ -58,10 +69,14 @@ double MixedSampler::scale(std::size_t part, std::size_t quantity, std::uint32_t
 }
 
 double MixedSampler::scale(std::size_t part, std::size_t quantity, const Vec2& position) const {
-    return scale(part, quantity, pixel_at(*film_, position));
+    return scale(part, quantity, pixel_at(scene_->film, position));
 }
 
-MixedSampler::OfPart MixedSampler::part_of(const SampleName& name) const {
+std::vector<Rgb> MixedSampler::retrace(std::uint64_t, std::uint32_t, PathObserver&) const {
+    throw std::logic_error("MixedSampler: paths are its parts'");
+}
+
+PathSampler::OfPart MixedSampler::part_of(const SampleName& name) const {
     const std::size_t part = name.sample % parts_.size();
     return {*parts_[part], {name.pixel, name.sample / parts_.size()}, part, mixture_->parts[part].method};
 }

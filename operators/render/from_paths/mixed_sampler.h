@@ -5,49 +5,50 @@
 #pragma once
 
 #include "operators/render/from_paths/mixture.h"
-#include "operators/render/from_paths/sampling_settings.h"
-#include "operators/render/from_paths/tally.h"
-#include "operators/statistics/sample_ranges.h"
-#include "operators/watch.h"
+#include "operators/render/from_paths/path_sampler.h"
 
 #include <memory>
 #include <vector>
 
 namespace neumann {
 
-class PictureSampler;
+class MixedPaths : public PathMethod {
+public:
+    explicit MixedPaths(std::shared_ptr<const Mixture> mixture) : mixture_(std::move(mixture)) {}
+    const Mixture& mixture() const { return *mixture_; }
+
+    std::shared_ptr<const PathSampler> sampler(const Scene& scene, const SamplingSettings& settings) const override;
+    bool is_prepared() const override { return true; }
+    std::uint64_t rays() const override { return mixture_->rays; }
+    double walks_worth(int, std::span<const double>) const override { return 16.0; }
+    bool is_bounded(const SamplingSettings& settings) const override;
+    bool has_events() const override;
+    bool has_chains() const override;
+    std::string why_no_history() const override { return "it is put together from the pictures of several methods"; }
+
+private:
+    std::shared_ptr<const Mixture> mixture_;
+};
 
 // Those of one method of a mixture; its random numbers are of a seed of its own.
-SamplingSettings settings_of_part(const SamplingSettings& settings, std::size_t part);
+SamplingSettings settings_of_part(const SamplingSettings& settings, const Mixture& mixture, std::size_t part);
 
-class MixedSampler {
+class MixedSampler : public PathSampler {
 public:
-    // Keeps a reference to the scene.
-    MixedSampler(const Scene& scene, const SamplingSettings& settings);
+    MixedSampler(const Scene& scene, const SamplingSettings& settings, std::shared_ptr<const Mixture> mixture);
 
-    // Adds a replicate's picture, all quantities of each pixel. Returns false if `watch` stopped it.
     bool sample_picture(std::uint64_t replicate, std::vector<Rgb>& picture, SampleRanges& ranges, Tally& tally,
-                        const Watch& watch) const;
+                        const Watch& watch) const override;
+    std::vector<Rgb> retrace(std::uint64_t replicate, std::uint32_t first, PathObserver& observer) const override;
 
-    std::size_t parts() const { return parts_.size(); }
-    // The method that made a sample, and the sample's name there.
-    struct OfPart {
-        const PictureSampler& sampler;
-        SampleName name;
-        std::size_t part;
-        const std::string& method;
-    };
-    OfPart part_of(const SampleName& name) const;
-    // What a sample of a method with value 1 adds to the mean of its pixel, or of that at a position on the film, times the
-    // mixture's samples of a pixel.
-    double scale(std::size_t part, std::size_t quantity, std::uint32_t pixel) const;
-    double scale(std::size_t part, std::size_t quantity, const Vec2& position) const;
+    std::size_t parts() const override { return parts_.size(); }
+    OfPart part_of(const SampleName& name) const override;
+    double scale(std::size_t part, std::size_t quantity, std::uint32_t pixel) const override;
+    double scale(std::size_t part, std::size_t quantity, const Vec2& position) const override;
 
 private:
     double weight(std::size_t part, std::size_t quantity, std::uint32_t pixel) const;
 
-    const Film* film_;
-    SamplingSettings settings_;
     std::uint32_t width_, height_;
     std::shared_ptr<const Mixture> mixture_;
     std::vector<std::shared_ptr<const PictureSampler>> parts_;

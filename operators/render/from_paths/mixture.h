@@ -3,6 +3,7 @@
 #pragma once
 
 #include "operators/paths/walk/walk_settings.h"
+#include "operators/render/from_paths/path_method.h"
 #include "operators/render/from_paths/pixel_blocks.h"
 
 #include <algorithm>
@@ -13,17 +14,12 @@
 
 namespace neumann {
 
-class Approximation;
-class Guide;
 struct Allocation;
-enum class PathGenerator;
 
 struct Mixture {
     struct Part {
         std::string method;  // its name
-        PathGenerator generator;
-        std::shared_ptr<const Guide> guide = {};
-        std::shared_ptr<const Approximation> approximation = {};
+        std::shared_ptr<const PathMethod> paths;
         LeftOut left_out = {};                              // by the plan
         std::shared_ptr<const Allocation> allocation = {};  // some pixels may have no samples
         std::int8_t exponent = 0;                           // of the samples of all pixels, as an allocation's, where there is none
@@ -35,9 +31,6 @@ struct Mixture {
     std::size_t bounces = 0;      // N + 1
     std::uint64_t rays = 0;       // cast before the first sample
 
-    bool has(PathGenerator generator) const {
-        return std::any_of(parts.begin(), parts.end(), [&](const Part& part) { return part.generator == generator; });
-    }
     // The rest beyond N has the weights of bounce N.
     double weight(std::size_t part, std::size_t quantity, std::size_t block) const {
         return weights[(part * bounces + std::min(quantity, bounces - 1)) * blocks.count() + block];

@@ -117,7 +117,7 @@ struct Measured {
 Measured measure(const Contenders& all, double budget, const Grid& grid) {
     const std::size_t M = all.size(), B = grid.blocks.count();
     Measured found{{M, 0, B, {}, std::vector<double>(M * B, 0.0), {}, budget, {}}, {}};
-    for (const Contender& contender : all) found.costs.even.push_back(has_even_samples(contender.candidate->settings.generator));
+    for (const Contender& contender : all) found.costs.even.push_back(contender.candidate->settings.method->has_even_samples());
     std::vector<std::vector<double>> variances(M);
     for (std::size_t bounce = 0; bounce < all.front().trial->terms(); ++bounce) {
         const BounceVariances of = variances_of(all, bounce, grid);
@@ -240,7 +240,7 @@ Mixture mix(const Scene& scene, const Scene& view, const std::vector<MixtureCand
     for (const MixtureCandidate& candidate : candidates) {
         SamplingSettings settings = candidate.settings;
         // What shared points leave in a pixel depends on their number, not on that of pixels.
-        settings.pixels_of_points = large.width * large.height;
+        settings.pixels_of_shared = large.width * large.height;
         contenders.push_back({&candidate, std::make_unique<MixtureTrial>(view, settings, size, watch)});
     }
     double budget = 0.0;
@@ -257,8 +257,8 @@ Mixture mix(const Scene& scene, const Scene& view, const std::vector<MixtureCand
     if (chosen.all.size() == 1) {
         const auto& [name, own, price] = *chosen.all.front().candidate;
         mixture.weights.assign(mixture.bounces * B, 1.0);
-        mixture.parts.push_back({name, own.generator, own.guide, own.approximation, own.walk.left_out});
-        if (!has_even_samples(own.generator)) mixture.parts.front().allocation = allocate(scene, own, least, watch);
+        mixture.parts.push_back({name, own.method, own.walk.left_out});
+        if (!own.method->has_even_samples()) mixture.parts.front().allocation = allocate(scene, own, least, watch);
         if (const auto& allocation = mixture.parts.front().allocation) mixture.rays += allocation->rays;
         return mixture;
     }
@@ -269,10 +269,10 @@ Mixture mix(const Scene& scene, const Scene& view, const std::vector<MixtureCand
     const std::vector<double> shares = shares_of(chosen.measured.costs, numbers);
     for (std::size_t m = 0; m < chosen.all.size(); ++m) {
         const auto& [name, own, price] = *chosen.all[m].candidate;
-        mixture.parts.push_back({name, own.generator, own.guide, own.approximation, own.walk.left_out});
+        mixture.parts.push_back({name, own.method, own.walk.left_out});
         mixture.parts.back().share = shares[m];
         mixture.parts.back().exponent = exponents[m * B];
-        if (has_even_samples(own.generator)) continue;
+        if (own.method->has_even_samples()) continue;
         Allocation allocation{std::vector<std::int8_t>(std::size_t{large.width} * large.height), 0};
         for (std::uint32_t pixel = 0; pixel < large.width * large.height; ++pixel)
             allocation.exponents[pixel] = exponents[m * B + large.of(pixel)];

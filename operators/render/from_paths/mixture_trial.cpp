@@ -28,7 +28,7 @@ MixtureTrial::MixtureTrial(const Scene& view, const SamplingSettings& settings, 
       sum_of_means_(sampler_.quantities(), 0.0),
       of_squares_(sum_of_means_),
       rays_of_sample_(pixels(), 0.0) {
-    if (settings.generator == PathGenerator::metropolis) return;  // go_on() counts
+    if (!sampler_.paths().has_own_samples()) return;  // go_on() counts
     std::atomic<std::uint64_t> all = 0;
     const OwnSamples count = [&](const PixelGroup& group, std::span<const Rgb>, std::span<const std::uint64_t> rays) {
         const std::uint64_t n = std::accumulate(rays.begin(), rays.end(), std::uint64_t{0});
@@ -62,7 +62,7 @@ void MixtureTrial::go_on(std::uint32_t replicates, const Watch& watch) {
         replicates_ += 1.0;
     }
     rays_ += std::accumulate(tally.rays.begin(), tally.rays.end(), std::uint64_t{0});
-    if (sampler_.metropolis()) std::ranges::fill(rays_of_sample_, static_cast<double>(rays_) / (samples() * pixels()));
+    if (!sampler_.paths().has_own_samples()) std::ranges::fill(rays_of_sample_, static_cast<double>(rays_) / (samples() * pixels()));
 }
 
 Rgb MixtureTrial::variance(std::uint32_t pixel, std::size_t bounce) const {

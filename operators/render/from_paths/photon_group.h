@@ -25,7 +25,7 @@ void PhotonSampler::trace_group(std::uint64_t replicate, const PixelGroup& pixel
                                 const Observer& observer) const {
     work.samples.begin(scene_->film, settings_, layout_, pixels);
     const auto read = [&](std::span<const CameraRay> rays, std::span<Sampler> samplers, Walkers&, TermSamples& out) {
-        PhotonWalk(*scene_, *direct_, settings_.walk, *settings_.photons, pass)(rays, samplers, work.walkers, out, observer);
+        PhotonWalk(*scene_, *direct_, settings_.walk, *pilot_, pass)(rays, samplers, work.walkers, out, observer);
     };
     work.tally.given_up += trace(*scene_, read, std::span(work.samples.samplers), std::span<const Pixel>(work.samples.pixels),
                                  replicate, work.group, std::span(work.tally.rays));

@@ -5,25 +5,24 @@
 #include "operators/render/from_paths/pixel_groups.h"
 
 #include <algorithm>
-#include <stdexcept>
+#include <numbers>
+#include <utility>
 
 namespace neumann {
 
-namespace {
-
-const PhotonSettings& given(const SamplingSettings& settings) {
-    if (!settings.photons) throw std::logic_error("PictureSampler: the settings of photon maps are missing");
-    return settings.photons->settings;
+std::shared_ptr<const PathSampler> PhotonPaths::sampler(const Scene& scene, const SamplingSettings& settings) const {
+    return std::make_shared<const PhotonSampler>(scene, settings, pilot_);
 }
 
-}  // namespace
+std::optional<TwoRadii> PhotonPaths::two_radii() const {
+    return TwoRadii{.part_of_bias = 1.0 - 1.0 / std::numbers::sqrt2, .errs_both_ways = false, .difference_is_of_kernel = true};
+}
 
-PhotonSampler::PhotonSampler(const Scene& scene, const SamplingSettings& settings)
-    : scene_(&scene),
-      settings_(settings),
-      layout_(settings.layout(scene.film)),
+PhotonSampler::PhotonSampler(const Scene& scene, const SamplingSettings& settings, std::shared_ptr<const PhotonPilot> pilot)
+    : PathSampler(scene, settings),
+      pilot_(std::move(pilot)),
       direct_(std::make_shared<const DirectLightSampler>(scene, settings.walk.direct)),
-      photons_(scene, settings.walk, given(settings), settings.sampler, settings.seed) {}
+      photons_(scene, settings.walk, pilot_->settings, settings.sampler, settings.seed) {}
 
 std::optional<PhotonPass> PhotonSampler::make_pass(std::uint64_t replicate, std::vector<std::uint64_t>& rays,
                                                    std::uint64_t& given_up, const Watch& watch) const {

@@ -3,13 +3,10 @@
 #pragma once
 
 #include "core/sampling/sampler.h"
+#include "operators/paths/photons/photon_pilot.h"
 #include "operators/paths/photons/photon_tracer.h"
 #include "operators/paths/walk/observer.h"
-#include "operators/paths/walk/path_observer.h"
-#include "operators/render/from_paths/sampling_settings.h"
-#include "operators/render/from_paths/tally.h"
-#include "operators/statistics/series_moments.h"
-#include "operators/watch.h"
+#include "operators/render/from_paths/path_sampler.h"
 
 #include <memory>
 #include <vector>
@@ -19,19 +16,43 @@ namespace neumann {
 class DirectLightSampler;
 struct PhotonPass;
 
-class PhotonSampler {
+class PhotonPaths : public PathMethod {
 public:
-    // Keeps a reference to the scene.
-    PhotonSampler(const Scene& scene, const SamplingSettings& settings);
+    explicit PhotonPaths(std::shared_ptr<const PhotonPilot> pilot) : pilot_(std::move(pilot)) {}
+    const PhotonPilot& pilot() const { return *pilot_; }
 
-    // Adds a replicate's picture, all quantities of each pixel. Returns false if `watch` stopped it.
+    std::shared_ptr<const PathSampler> sampler(const Scene& scene, const SamplingSettings& settings) const override;
+    bool is_prepared() const override { return true; }
+    std::uint64_t rays() const override { return pilot_->rays; }
+    double walks_worth(int, std::span<const double>) const override { return 16.0; }
+    // r and r/√2. Where light has edges the error is of order r, and the difference 1 − 1/√2 of it; where it is smooth, of order r²,
+    // and the difference a half. The former is taken.
+    std::optional<TwoRadii> two_radii() const override;
+    bool is_bounded(const SamplingSettings&) const override { return false; }
+    bool is_boundless(std::size_t quantity) const override { return quantity > 1; }
+    bool has_events() const override { return false; }  // means of many photons
+    std::string why_no_checkup() const override {
+        return "photons are shared by all pixels, and those of a pass are traced together";
+    }
+    std::optional<std::vector<Remedy>> remedies(const Scene&, bool) const override { return {{Remedy::bidirectional}}; }
+
+private:
+    const char* unfound_in_mirrors() const override { return unfound_from_both_ends; }
+
+    std::shared_ptr<const PhotonPilot> pilot_;
+};
+
+class PhotonSampler : public PathSampler {
+public:
+    PhotonSampler(const Scene& scene, const SamplingSettings& settings, std::shared_ptr<const PhotonPilot> pilot);
+
     bool sample_picture(std::uint64_t replicate, std::vector<Rgb>& picture, SampleRanges& ranges, Tally& tally,
-                        const Watch& watch) const;
-    // As PictureSampler::retrace(); traces all photons of the replicate again.
-    std::vector<Rgb> retrace(std::uint64_t replicate, std::uint32_t first, PathObserver& observer) const;
-
-    // As PictureSampler::retrace_photon().
-    void retrace_photon(std::uint64_t replicate, std::uint32_t path, PathObserver& observer) const;
+                        const Watch& watch) const override;
+    // Traces all photons of the replicate again.
+    std::vector<Rgb> retrace(std::uint64_t replicate, std::uint32_t first, PathObserver& observer) const override;
+    // The paths that left photons.
+    std::uint32_t of_read(std::uint32_t path) const override { return path % PhotonTracer::at_once; }
+    void retrace_read(std::uint64_t replicate, std::uint32_t path, PathObserver& observer) const override;
 
 private:
     struct Workspace;
@@ -41,9 +62,7 @@ private:
     void trace_group(std::uint64_t replicate, const PixelGroup& pixels, const PhotonPass& pass, Workspace& work,
                      const Observer& observer = {}) const;
 
-    const Scene* scene_;
-    SamplingSettings settings_;
-    SampleLayout layout_;
+    std::shared_ptr<const PhotonPilot> pilot_;
     std::shared_ptr<const DirectLightSampler> direct_;
     PhotonTracer photons_;
 };

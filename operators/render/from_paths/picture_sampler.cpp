@@ -3,7 +3,8 @@
 #include "core/base/hot.h"
 #include "core/base/large_array.h"
 #include "operators/render/from_paths/pixel_average.h"
-#include "operators/render/from_paths/pixel_groups.h"
+#include "operators/render/from_paths/pixel_samples.h"
+#include "operators/render/from_paths/term_estimators.h"
 #include "operators/render/from_paths/whole_pictures.h"
 
 #include <oneapi/tbb/blocked_range.h>
@@ -46,30 +47,10 @@ void append(std::uint64_t r, std::vector<std::vector<double>>& waiting, PixelWor
     std::swap(waiting[level], work.carry);
 }
 
-// One thread's work space for pixels of a whole picture.
-struct PictureWork {
-    explicit PictureWork(std::size_t quantities) : average(quantities), tally(quantities) {}
-    PathGroup group;
-    PixelSamples samples;
-    PixelAverage average;
-    Tally tally;
-};
-
-std::variant<TermEstimator, SplatSampler, CorrectedSampler, PhotonSampler, CacheSampler, MetropolisSampler, MixedSampler>
-make_sampler(const Scene& scene, const SamplingSettings& settings) {
-    if (splats(settings.generator)) return SplatSampler(scene, settings);
-    if (settings.generator == PathGenerator::corrected) return CorrectedSampler(scene, settings);
-    if (settings.generator == PathGenerator::photon) return PhotonSampler(scene, settings);
-    if (settings.generator == PathGenerator::cache) return CacheSampler(scene, settings);
-    if (settings.generator == PathGenerator::metropolis) return MetropolisSampler(scene, settings);
-    if (settings.generator == PathGenerator::mixed) return MixedSampler(scene, settings);
-    return make_estimator(scene, settings);
-}
-
 }  // namespace
 
 PictureSampler::PictureSampler(const Scene& scene, const Settings& settings)
-    : scene_(scene), settings_(settings), layout_(settings.layout(scene.film)), sampler_(make_sampler(scene, settings)) {
+    : scene_(scene), settings_(settings), layout_(settings.layout(scene.film)), paths_(settings.method->sampler(scene, settings)) {
     if (!std::has_single_bit(settings.replicate_size))
         throw std::logic_error("PictureSampler: replicate_size is not a power of two");
 }
@@ -82,7 +63,7 @@ std::optional<MomentsNode> PictureSampler::run(std::uint64_t first, std::uint64_
         return join_pictures(
             first, count, tally, watch, std::move(memory),
             [&](std::uint64_t replicate, std::vector<Rgb>& picture, SampleRanges& ranges, Tally& of_node, const Watch& of_picture) {
-                return sample_picture(replicate, picture, ranges, of_node, of_picture);
+                return paths_->sample_picture(replicate, picture, ranges, of_node, of_picture);
             });
     MomentsNode node = empty_node(first, count, std::move(memory));
     if (!sample_pixels({first, count, 0, pixels()}, node.data, node.ranges.of, tally, watch)) return std::nullopt;
@@ -108,7 +89,7 @@ std::optional<SampledShare> PictureSampler::sample(const Share& share, const Tal
     sampled.ranges.of.resize((share.end - share.begin) * Q);
     if (has_whole_pictures()) {
         std::vector<Rgb> picture(pixels() * Q, Rgb(0.0));
-        if (!sample_picture(share.first, picture, sampled.ranges, sampled.tally, watch)) return std::nullopt;
+        if (!paths_->sample_picture(share.first, picture, sampled.ranges, sampled.tally, watch)) return std::nullopt;
         sampled.data.reserve(picture.size() * 3);
         for (const Rgb& x : picture) sampled.data.insert(sampled.data.end(), {x.r, x.g, x.b});
         return sampled;
@@ -171,59 +152,9 @@ std::optional<MomentsNode> PictureSampler::join_pictures(std::uint64_t first, st
     return node;
 }
 
-bool PictureSampler::sample_picture(std::uint64_t replicate, std::vector<Rgb>& picture, SampleRanges& ranges, Tally& tally,
-                                    const Watch& watch) const {
-    if (const auto* splats = std::get_if<SplatSampler>(&sampler_))
-        return splats->sample_picture(replicate, picture, ranges, tally, watch);
-    if (const auto* photons = std::get_if<PhotonSampler>(&sampler_))
-        return photons->sample_picture(replicate, picture, ranges, tally, watch);
-    if (const auto* cache = std::get_if<CacheSampler>(&sampler_))
-        return cache->sample_picture(replicate, picture, ranges, tally, watch);
-    if (const auto* chains = std::get_if<MetropolisSampler>(&sampler_))
-        return chains->sample_picture(replicate, picture, ranges, tally, watch);
-    if (const auto* mixed = std::get_if<MixedSampler>(&sampler_))
-        return mixed->sample_picture(replicate, picture, ranges, tally, watch);
-    if (const auto* corrected = std::get_if<CorrectedSampler>(&sampler_))
-        return corrected->sample_picture(replicate, picture, ranges, tally, watch);
-    return std::visit(
-        [&](const auto& estimate) {
-            return sample_groups<PictureWork>(
-                settings_, layout_, replicate, picture, ranges, tally, watch, [&](const PixelGroup& pixels, PictureWork& work) {
-                    work.samples.begin(scene_.film, settings_, layout_, pixels);
-                    work.tally.given_up +=
-                        trace(scene_, estimate, std::span(work.samples.samplers), std::span<const Pixel>(work.samples.pixels),
-                              replicate, work.group, std::span(work.tally.rays));
-                });
-        },
-        std::get<TermEstimator>(sampler_));
-}
-
-std::optional<std::uint64_t> PictureSampler::own_samples(std::uint64_t replicate, const OwnSamples& each, const Watch& watch) const {
-    if (const auto* corrected = std::get_if<CorrectedSampler>(&sampler_)) return corrected->own_samples(replicate, each, watch);
-    const bool done = for_groups(layout_, watch, [&](const PixelGroup& pixels) {
-        std::vector<std::uint64_t> rays(quantities());
-        if (const auto* splats = std::get_if<SplatSampler>(&sampler_)) {
-            const std::vector<Rgb> own = splats->own_samples(replicate, pixels, rays);
-            each(pixels, own, rays);
-            return;
-        }
-        PixelSamples samples;
-        samples.begin(scene_.film, settings_, layout_, pixels);
-        PathGroup paths;
-        std::visit(
-            [&](const auto& estimate) {
-                trace(scene_, estimate, std::span(samples.samplers), std::span<const Pixel>(samples.pixels), replicate, paths,
-                      std::span(rays));
-            },
-            std::get<TermEstimator>(sampler_));
-        each(pixels, paths.samples, rays);
-    });
-    return done ? std::optional<std::uint64_t>(0) : std::nullopt;
-}
-
 bool PictureSampler::sample_pixels(const Share& share, std::span<double> data, std::span<SampleRange> ranges, Tally& tally,
                                    const Watch& watch) const {
-    const TermEstimator& estimator = std::get<TermEstimator>(sampler_);
+    const TermEstimator& estimate = *paths_->of_pixels();
     const std::uint64_t first = share.first, count = share.count;
     const std::size_t stride = quantities() * PixelMoments::doubles_per_quantity;
     const auto levels = static_cast<std::size_t>(std::countr_zero(count)) + 1;
@@ -236,7 +167,7 @@ bool PictureSampler::sample_pixels(const Share& share, std::span<double> data, s
     std::atomic<std::uint64_t> pixels_done = 0;
     std::atomic<bool> dropped = false;
     // Samples a group of consecutive pixels, starting with `begin`.
-    const auto run_pixels = [&](const auto& estimate, const PixelGroup& group, PixelWork& work) {
+    const auto run_pixels = [&](const PixelGroup& group, PixelWork& work) {
         const auto [begin, end, size] = group;
         PixelSamples of_group;
         of_group.begin(scene_.film, settings_, layout_, group);
@@ -264,7 +195,7 @@ bool PictureSampler::sample_pixels(const Share& share, std::span<double> data, s
         std::uint32_t done = 0;
         for (std::uint32_t group = range.begin(); group < range.end(); ++group) {
             const PixelGroup some = layout_.group(group);
-            std::visit([&](const auto& estimate) { run_pixels(estimate, some, work); }, estimator);
+            run_pixels(some, work);
             done += some.end - some.begin;
         }
         pixels_done += done;

@@ -1,29 +1,20 @@
-// Samples the terms over a whole picture, replicate by replicate, and keeps the moments of every term and sum.
+// Samples the terms over a whole picture by any method, replicate by replicate, and keeps the moments of every term and sum.
 #pragma once
 
 #include "core/sampling/sampler.h"
 #include "core/scene/scene.h"
 #include "operators/paths/walk/path_group.h"
-#include "operators/render/from_paths/cache_sampler.h"
-#include "operators/render/from_paths/corrected_sampler.h"
-#include "operators/render/from_paths/metropolis_sampler.h"
-#include "operators/render/from_paths/mixed_sampler.h"
-#include "operators/render/from_paths/own_samples.h"
-#include "operators/render/from_paths/photon_sampler.h"
-#include "operators/render/from_paths/pixel_samples.h"
+#include "operators/render/from_paths/path_sampler.h"
 #include "operators/render/from_paths/share.h"
-#include "operators/render/from_paths/splat_sampler.h"
-#include "operators/render/from_paths/tally.h"
-#include "operators/render/from_paths/term_estimators.h"
 #include "operators/statistics/series_moments.h"
 #include "operators/watch.h"
 
 #include <algorithm>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
-#include <variant>
 #include <vector>
 
 namespace neumann {
@@ -39,6 +30,7 @@ public:
     std::size_t quantities() const { return settings_.quantities(); }
     const Settings& settings() const { return settings_; }
     const SampleLayout& layout() const { return layout_; }
+    const PathSampler& paths() const { return *paths_; }
 
     // Samples replicates first … first + count − 1 of every pixel; count is a power of two that divides first. Adds to `tally`,
     // which holds the earlier replicates, unless `watch` stops it: then the work is dropped. watch.progress gets the fraction of
@@ -56,34 +48,10 @@ public:
                                     const std::function<std::optional<SampledShare>(const Share&)>& next,
                                     std::vector<double> memory = {}) const;
 
-    // Traces one group of paths of run() again (path_group.h) and reports it to `observer`; `first` is the first path of the group.
-    // Returns the samples, path by path with all quantities, with the same bits as in run(); the plan leaves nothing out.
-    // The pointwise method has no paths: std::logic_error.
-    std::vector<Rgb> retrace(std::uint64_t replicate, std::uint32_t first, PathObserver& observer) const;
-
-    // The samples of all pixels without what paths from the lights bring to pixels all over the film. For methods of which pixels
-    // may have different numbers of samples. Returns the rays cast for what pixels share; nothing if `watch` stopped it.
-    std::optional<std::uint64_t> own_samples(std::uint64_t replicate, const OwnSamples& each, const Watch& watch = {}) const;
-
-    // Adds the picture of one replicate, all quantities of each pixel, black where a pixel has no samples. False if `watch` stopped
-    // it.
-    bool sample_picture(std::uint64_t replicate, std::vector<Rgb>& picture, SampleRanges& ranges, Tally& tally,
-                        const Watch& watch = {}) const;
-
-    // Null unless several methods are mixed.
-    const MixedSampler* mixed() const { return std::get_if<MixedSampler>(&sampler_); }
-    // Null unless paths are chains.
-    const MetropolisSampler* metropolis() const { return std::get_if<MetropolisSampler>(&sampler_); }
-    const CorrectedSampler* corrected() const { return std::get_if<CorrectedSampler>(&sampler_); }
-
-    // With photon maps: traces the paths again that left photons of a replicate, those of the group with this path, which have
-    // their numbers in the group. With a cache: the ray of a record with this number, which has number 0.
-    void retrace_read(std::uint64_t replicate, std::uint32_t path, PathObserver& observer) const;
-
 private:
     std::uint32_t pixels() const { return static_cast<std::uint32_t>(width()) * static_cast<std::uint32_t>(height()); }
     // Whether its pixels share something.
-    bool has_whole_pictures() const { return settings_.shares_tails() || !std::holds_alternative<TermEstimator>(sampler_); }
+    bool has_whole_pictures() const { return paths_->of_pixels() == nullptr; }
     MomentsNode empty_node(std::uint64_t first, std::uint64_t count, std::vector<double> memory) const;
     // sample(replicate, picture, ranges, tally, watch), for each replicate in turn.
     template <class Sample>
@@ -96,8 +64,7 @@ private:
     const Scene& scene_;
     Settings settings_;
     SampleLayout layout_;
-    std::variant<TermEstimator, SplatSampler, CorrectedSampler, PhotonSampler, CacheSampler, MetropolisSampler, MixedSampler>
-        sampler_;
+    std::shared_ptr<const PathSampler> paths_;
 };
 
 }  // namespace neumann

@@ -145,7 +145,7 @@ RenderedSeries render_series(const Scene& scene, const PictureSampler::Settings&
             }
         }
 
-        const bool has_end = goal.seconds && (done > 0 || settings.generator != PathGenerator::walk);
+        const bool has_end = goal.seconds && (done > 0 || settings.method->first_may_be_late());
         const auto is_late = [&] { return has_end && seconds_so_far() > cut_off(*goal.seconds, done == 0); };
         Watch of_block;
         of_block.progress = [&](const RenderProgress& part) {

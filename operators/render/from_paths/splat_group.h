@@ -39,7 +39,7 @@ void SplatSampler::trace_group(std::uint64_t replicate, std::uint32_t first, std
     std::vector<Sampler> light(samples, sampler_of(light_points_, of_lights));
     for (std::uint32_t i = 0; i < samples; ++i) light[i].start(replicate * paths + first + i);
 
-    if (settings_.generator == PathGenerator::light) {
+    if (!joined_) {
         work.tally.given_up += trace_light(*scene_, T, emission_, lights_, settings_.walk.ending(), std::span(light), work.light,
                                            splatted, work.tally.rays, observer);
         return;
@@ -63,7 +63,7 @@ void SplatSampler::trace_group(std::uint64_t replicate, std::uint32_t first, std
     const int N = settings_.walk.bounces;
     // Adds a contribution to the quantities to which it belongs: its bounce, or its strategy (s, t).
     const auto sort = [&](const Found& f, const auto& add) {
-        if (!settings_.ways_of_last_bounce) {
+        if (*joined_ == BidirectionalPaths::Quantities::terms) {
             add(static_cast<std::size_t>(std::min(f.bounce, N + 1)), f.value * f.weight);
         } else if (f.bounce == N) {
             add(static_cast<std::size_t>(f.s), f.value * f.weight);

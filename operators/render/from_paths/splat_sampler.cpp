@@ -16,19 +16,41 @@ constexpr std::uint32_t groups_at_once = 8;
 
 }  // namespace
 
+std::shared_ptr<const PathSampler> LightPaths::sampler(const Scene& scene, const SamplingSettings& settings) const {
+    return std::make_shared<const SplatSampler>(scene, settings, std::nullopt);
+}
+
+Paths LightPaths::paths(const Scene& scene) const {
+    return has_specular(scene.materials) || scene.emitters.has_environment() ? Paths::seen_directly : Paths::all;
+}
+
+void LightPaths::warn(const Scene& scene, Warnings& warnings) const {
+    PathMethod::warn(scene, warnings);
+    if (paths(scene) == Paths::seen_directly)
+        warnings.add(
+            "--method light makes no path whose last reflection before the camera is in a mirror, of glass or of anything else that "
+            "sends light in a single direction, and does not see what surrounds the scene: these are missing");
+}
+
+std::shared_ptr<const PathSampler> BidirectionalPaths::sampler(const Scene& scene, const SamplingSettings& settings) const {
+    return std::make_shared<const SplatSampler>(scene, settings, quantities_);
+}
+
+const char* BidirectionalPaths::unfound_in_mirrors() const { return unfound_from_both_ends; }
+
 // The contributions of one piece of work to pixels anywhere on the film, in a fixed order.
 struct SplatSampler::Chunk {
     std::vector<PixelShare> shares;
 };
 
-SplatSampler::SplatSampler(const Scene& scene, const SamplingSettings& settings)
-    : scene_(&scene),
-      settings_(settings),
+SplatSampler::SplatSampler(const Scene& scene, const SamplingSettings& settings,
+                           std::optional<BidirectionalPaths::Quantities> joined)
+    : PathSampler(scene, settings),
+      joined_(joined),
       pixels_(static_cast<std::uint32_t>(scene.film.crop_width) * static_cast<std::uint32_t>(scene.film.crop_height)),
       emission_(scene.geometry, scene.emitters),
       lights_(scene.geometry, scene.emitters),
       bidirectional_(scene, settings.walk, pixels_),
-      layout_(settings.layout(scene.film)),
       light_points_(light_net) {}
 
 void SplatSampler::sample_paths(std::uint64_t replicate, std::uint32_t first, std::uint32_t samples, Chunk& chunk,
@@ -48,7 +70,7 @@ void SplatSampler::sample_group(std::uint64_t replicate, std::uint32_t first, st
                                 std::span<Rgb> own, SampleRanges& ranges, Workspace& work) const {
     const std::size_t Q = settings_.quantities();
     sample_paths(replicate, first, samples, chunk, work);
-    if (settings_.generator == PathGenerator::light) return;
+    if (!joined_) return;
     for (std::uint32_t i = 0; i < samples; ++i) {
         const SampleName name = layout_.name(replicate, first + i);
         const SamplePlace place{name.pixel, name};
@@ -66,14 +88,16 @@ void SplatSampler::sample_group(std::uint64_t replicate, std::uint32_t first, st
     }
 }
 
-std::vector<Rgb> SplatSampler::own_samples(std::uint64_t replicate, const PixelGroup& pixels, std::span<std::uint64_t> rays) const {
-    Workspace work(settings_.quantities());
-    Chunk chunk;
-    sample_paths(replicate, layout_.first_path(pixels.begin), pixels.paths(), chunk, work);
-    for (std::size_t q = 0; q < rays.size(); ++q) rays[q] += work.tally.rays[q];
-    std::vector<Rgb>& samples = work.group.samples;
-    for (std::size_t k = 0; k < samples.size(); ++k) samples[k] *= work.group.weights[k / settings_.quantities()];
-    return std::move(samples);
+std::optional<std::uint64_t> SplatSampler::own_samples(std::uint64_t replicate, const OwnSamples& each, const Watch& watch) const {
+    const bool done = for_groups(layout_, watch, [&](const PixelGroup& pixels) {
+        Workspace work(settings_.quantities());
+        Chunk chunk;
+        sample_paths(replicate, layout_.first_path(pixels.begin), pixels.paths(), chunk, work);
+        std::vector<Rgb>& samples = work.group.samples;
+        for (std::size_t k = 0; k < samples.size(); ++k) samples[k] *= work.group.weights[k / settings_.quantities()];
+        each(pixels, samples, work.tally.rays);
+    });
+    return done ? std::optional<std::uint64_t>(0) : std::nullopt;
 }
 
 bool SplatSampler::sample_picture(std::uint64_t replicate, std::vector<Rgb>& picture, SampleRanges& ranges, Tally& tally,
@@ -113,7 +137,7 @@ bool SplatSampler::sample_picture(std::uint64_t replicate, std::vector<Rgb>& pic
     for (LargestSamples& largest : tally.largest) largest.add_count(samples);
     // Most paths contribute nothing to a given pixel, so 0 is among the samples.
     for (SampleRange& range : of_shares.of)
-        if (range.largest[0] >= range.smallest[0] || settings_.generator == PathGenerator::light) range.add(Rgb(0.0));
+        if (range.largest[0] >= range.smallest[0] || !joined_) range.add(Rgb(0.0));
     ranges.merge(of_shares);
     const double of_splats = static_cast<double>(pixels_) / samples;
     for (std::size_t i = 0; i < picture.size(); ++i) {

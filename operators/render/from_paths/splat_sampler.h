@@ -1,4 +1,4 @@
-// Samples the terms by paths from the lights, which may contribute to any pixel, so a replicate is a whole picture. A replicate has
+// Light tracing, and bidirectional path tracing: paths from the lights may contribute to any pixel, so a replicate is a whole picture. A replicate has
 // as many paths as camera samples, and each is added to the pixels whose filter covers its position on the film.
 #pragma once
 
@@ -6,26 +6,70 @@
 #include "operators/paths/bidirectional/bidirectional.h"
 #include "operators/paths/bidirectional/light_tracing.h"
 #include "operators/paths/walk/path_observer.h"
-#include "operators/render/from_paths/sampling_settings.h"
-#include "operators/render/from_paths/tally.h"
-#include "operators/statistics/series_moments.h"
-#include "operators/watch.h"
-
-#include <memory>
+#include "operators/render/from_paths/path_sampler.h"
 
 namespace neumann {
 
-class SplatSampler {
+// Walks from the lights, joined to the camera.
+class LightPaths : public PathMethod {
 public:
-    SplatSampler(const Scene& scene, const SamplingSettings& settings);
+    std::shared_ptr<const PathSampler> sampler(const Scene& scene, const SamplingSettings& settings) const override;
+    double walks_worth(int, std::span<const double>) const override { return 2.0; }
+    Paths paths(const Scene& scene) const override;
+    void warn(const Scene& scene, Warnings& warnings) const override;
+    bool splats() const override { return true; }
+    bool has_even_samples() const override { return true; }
+    bool starts_at_camera() const override { return false; }
+    bool starts_at_lights() const override { return true; }
+    bool is_bounded(const SamplingSettings&) const override { return false; }
+    bool is_boundless(std::size_t) const override { return true; }
+    std::string why_no_history() const override { return "the paths of all pixels bring light to it"; }
+    std::optional<std::vector<Remedy>> remedies(const Scene&, bool) const override { return {{Remedy::bidirectional}}; }
 
-    // Adds a replicate's picture, all quantities of each pixel. Returns false if `watch` stopped it.
+private:
+    const char* unfound_in_mirrors() const override { return nullptr; }
+};
+
+// Subpaths from both ends, joined at every pair of vertices.
+class BidirectionalPaths : public PathMethod {
+public:
+    // What the quantities of a sample are.
+    enum class Quantities {
+        terms,
+        ways  // of bounce N, each way (s, t) to make it: N + 2 weighted ones, and then N + 2 unweighted ones
+    };
+    explicit BidirectionalPaths(Quantities quantities = Quantities::terms) : quantities_(quantities) {}
+    Quantities quantities() const { return quantities_; }
+
+    std::shared_ptr<const PathSampler> sampler(const Scene& scene, const SamplingSettings& settings) const override;
+    std::size_t pictures(int bounces) const override {
+        return PathMethod::pictures(bounces) * (quantities_ == Quantities::ways ? 2 : 1);
+    }
+    double walks_worth(int, std::span<const double>) const override { return 5.0; }
+    bool splats() const override { return true; }
+    bool starts_at_lights() const override { return true; }
+    // Half of the ways have no weight.
+    bool is_bounded(const SamplingSettings&) const override { return quantities_ == Quantities::terms; }
+    std::string why_no_history() const override { return "the paths of all pixels bring light to it"; }
+    std::optional<std::vector<Remedy>> remedies(const Scene&, bool of_rest) const override {
+        return of_rest ? std::vector{Remedy::more_bounces} : std::vector<Remedy>();
+    }
+
+private:
+    const char* unfound_in_mirrors() const override;
+
+    Quantities quantities_;
+};
+
+class SplatSampler : public PathSampler {
+public:
+    // `joined`: what subpaths from both ends make; none: paths are from the lights alone.
+    SplatSampler(const Scene& scene, const SamplingSettings& settings, std::optional<BidirectionalPaths::Quantities> joined);
+
     bool sample_picture(std::uint64_t replicate, std::vector<Rgb>& picture, SampleRanges& ranges, Tally& tally,
-                        const Watch& watch) const;
-    // The paths of these pixels, without what they bring to others; adds their rays.
-    std::vector<Rgb> own_samples(std::uint64_t replicate, const PixelGroup& pixels, std::span<std::uint64_t> rays) const;
-    // As PictureSampler::retrace().
-    std::vector<Rgb> retrace(std::uint64_t replicate, std::uint32_t first, PathObserver& observer) const;
+                        const Watch& watch) const override;
+    std::optional<std::uint64_t> own_samples(std::uint64_t replicate, const OwnSamples& each, const Watch& watch) const override;
+    std::vector<Rgb> retrace(std::uint64_t replicate, std::uint32_t first, PathObserver& observer) const override;
 
 private:
     struct Workspace;
@@ -41,13 +85,11 @@ private:
     void sample_group(std::uint64_t replicate, std::uint32_t first, std::uint32_t samples, Chunk& chunk, std::span<Rgb> own,
                       SampleRanges& ranges, Workspace& work) const;
 
-    const Scene* scene_;
-    SamplingSettings settings_;
+    std::optional<BidirectionalPaths::Quantities> joined_;
     std::uint32_t pixels_;
     EmissionSampler emission_;
     LightSampler lights_;
     Bidirectional bidirectional_;
-    SampleLayout layout_;
     SobolPoints light_points_;
 };
 

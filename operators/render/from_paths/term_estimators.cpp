@@ -1,25 +1,46 @@
 #include "operators/render/from_paths/term_estimators.h"
 
-#include <stdexcept>
+#include "operators/render/from_paths/pixel_groups.h"
+#include "operators/render/from_paths/pixel_samples.h"
 
 namespace neumann {
 
-TermEstimator make_estimator(const Scene& scene, const SamplingSettings& settings) {
-    switch (settings.generator) {
-        case PathGenerator::pointwise:
-            return PointwiseEstimator(scene, settings.walk.bounces);
-        case PathGenerator::surface:
-            return WalkEstimator(scene, settings.walk, SurfaceContinuation(scene.geometry));
-        case PathGenerator::classic:
-            return WalkEstimator(scene, settings.walk, SpecularContinuation());
-        case PathGenerator::guided:
-            if (!settings.guide) throw std::logic_error("PictureSampler: a guided walk has no guide");
-            return WalkEstimator(scene, settings.walk, GuidedContinuation(settings.guide));
-        default:
-            if (settings.shares_tails()) return ReusingEstimator(scene, settings);
-            if (settings.tree) return TreeEstimator(scene, settings.walk, settings.tree);
-            return WalkEstimator(scene, settings.walk, MaterialContinuation());
-    }
+namespace {
+
+// One thread's work space for pixels of a whole picture.
+struct PictureWork {
+    explicit PictureWork(std::size_t quantities) : average(quantities), tally(quantities) {}
+    PathGroup group;
+    PixelSamples samples;
+    PixelAverage average;
+    Tally tally;
+};
+
+}  // namespace
+
+bool EstimatorSampler::sample_picture(std::uint64_t replicate, std::vector<Rgb>& picture, SampleRanges& ranges, Tally& tally,
+                                      const Watch& watch) const {
+    return sample_groups<PictureWork>(
+        settings_, layout_, replicate, picture, ranges, tally, watch, [&](const PixelGroup& pixels, PictureWork& work) {
+            work.samples.begin(scene_->film, settings_, layout_, pixels);
+            work.tally.given_up +=
+                trace(*scene_, *estimator_, std::span(work.samples.samplers), std::span<const Pixel>(work.samples.pixels),
+                      replicate, work.group, std::span(work.tally.rays));
+        });
+}
+
+std::optional<std::uint64_t> EstimatorSampler::own_samples(std::uint64_t replicate, const OwnSamples& each,
+                                                           const Watch& watch) const {
+    const bool done = for_groups(layout_, watch, [&](const PixelGroup& pixels) {
+        std::vector<std::uint64_t> rays(settings_.quantities());
+        PixelSamples samples;
+        samples.begin(scene_->film, settings_, layout_, pixels);
+        PathGroup paths;
+        trace(*scene_, *estimator_, std::span(samples.samplers), std::span<const Pixel>(samples.pixels), replicate, paths,
+              std::span(rays));
+        each(pixels, paths.samples, rays);
+    });
+    return done ? std::optional<std::uint64_t>(0) : std::nullopt;
 }
 
 }  // namespace neumann

@@ -4,7 +4,6 @@
 
 #include "core/base/warnings.h"
 #include "core/image/pixel_estimate.h"
-#include "operators/paths/photons/photon_pilot.h"
 #include "operators/paths/walk/furnace_walk.h"
 #include "operators/render/from_paths/rendered_series.h"
 #include "operators/render/methods/method.h"
@@ -12,7 +11,6 @@
 #include "operators/render/methods/ways.h"
 #include "operators/render/plan/plan.h"
 #include "operators/render/report/health.h"
-#include "operators/render/report/missing_paths.h"
 
 #include <functional>
 #include <memory>
@@ -36,10 +34,7 @@ struct PathRecord {
     // For `walk`: (albedo, the cost and second moment of a walk in a furnace of that albedo), for the scene's largest albedo and
     // others near 1.
     std::vector<std::pair<double, FurnaceWalk>> furnaces;
-    std::shared_ptr<const PhotonPilot> photons;            // of `photon`
-    std::shared_ptr<const RecordPlaces> records;           // of `cache`
-    std::shared_ptr<const TreeRatios> tree;                // of --tree
-    std::shared_ptr<const Mixture> mixture;                // of `mixed`
+    std::shared_ptr<const PathMethod> paths;               // with what was made ready before the first sample
     std::uint32_t fewest_of_pixel = 0, most_of_pixel = 0;  // samples in a replicate, where pixels have different numbers
     std::vector<ChainStatistics> chains;                   // of `metropolis`, for bounces 0 … N
     std::optional<Health> health;                          // none if only pictures were wanted

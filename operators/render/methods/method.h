@@ -9,22 +9,43 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <variant>
 
 namespace neumann {
 
+class PathMethod;
+class Prepared;
+struct SamplingSettings;
+struct Watch;
+
 namespace method {
+
+// What a method of paths has to make itself ready with.
+struct Preparing {
+    const Scene& scene;
+    const SamplingSettings& settings;
+    double memory;       // bytes, approximately
+    Prepared& prepared;  // by pilots, and for renders that follow
+    const Watch& watch;
+};
 
 enum class LeavingOut {
     by_plan,  // leave out what the plan proves unnecessary in this scene (operators/render/plan)
     nothing
 };
 
-// Options of all methods that sample paths.
+// Options of all methods that sample paths. Each has prepare(), which makes its tables, fields, photons and whatever else it needs
+// before its first sample, and returns how it samples; it throws InputError, and Stopped if `watch` stops it.
 struct PathOptions {
     std::optional<SamplerKind> sampler = {};  // default: the scene's sampler, or Sobol' points if the scene names none
     LeavingOut plan = LeavingOut::by_plan;
+
+    // Throws InputError if the method cannot render the scene.
+    void expect(const Scene&) const {}
+    // Sets the options that had been left open, as they were taken.
+    void complete(const SamplingSettings&, const Film&) {}
     bool operator==(const PathOptions&) const = default;
 };
 
@@ -45,6 +66,8 @@ struct Walk : PathOptions {
     std::optional<LeastError> adaptive = {};  // if pixels have different numbers of samples: to make this least
     bool reuse = false;                       // walks of neighbouring pixels use each other's tails
     std::optional<TreeGoal> tree = {};        // if the walk splits and ends by the best numbers for its depths: for what
+
+    std::shared_ptr<const PathMethod> prepare(const Preparing& preparing) const;
     bool operator==(const Walk&) const = default;
 };
 
@@ -54,6 +77,9 @@ struct Guided : PathOptions {
     std::optional<std::size_t> patches = {};
     std::optional<std::uint32_t> directions = {};
     std::optional<LeastError> adaptive = {};  // as of the walk
+
+    std::shared_ptr<const PathMethod> prepare(const Preparing& preparing) const;
+    void complete(const SamplingSettings& settings, const Film& film);
     bool operator==(const Guided&) const = default;
 };
 
@@ -64,12 +90,18 @@ struct Corrected : PathOptions {
     std::optional<std::size_t> patches = {};
     std::optional<std::uint32_t> directions = {};
     std::optional<LeastError> adaptive = {};  // as of the walk
+
+    std::shared_ptr<const PathMethod> prepare(const Preparing& preparing) const;
+    void complete(const SamplingSettings& settings, const Film& film);
     bool operator==(const Corrected&) const = default;
 };
 
 // Walks from the camera that choose the next vertex uniformly by area on all surfaces.
 struct Surface : PathOptions {
     static constexpr const char* name = "surface";
+    static constexpr DirectLight direct_light = DirectLight::light;
+
+    std::shared_ptr<const PathMethod> prepare(const Preparing& preparing) const;
     bool operator==(const Surface&) const = default;
 };
 
@@ -77,6 +109,9 @@ struct Surface : PathOptions {
 struct Light : PathOptions {
     static constexpr const char* name = "light";
     Roulette roulette = {};
+
+    void expect(const Scene& scene) const;
+    std::shared_ptr<const PathMethod> prepare(const Preparing& preparing) const;
     bool operator==(const Light&) const = default;
 };
 
@@ -88,6 +123,9 @@ struct Bidirectional : PathOptions {
     Split split = {};
     std::optional<LeastError> adaptive = {};  // as of the walk
     std::optional<int> ways = {};             // show every way (s, t) to make this bounce (ways.h)
+
+    void expect(const Scene& scene) const;
+    std::shared_ptr<const PathMethod> prepare(const Preparing& preparing) const;
     bool operator==(const Bidirectional&) const = default;
 };
 
@@ -98,6 +136,10 @@ struct Photon : PathOptions {
     std::optional<std::uint32_t> photons = {};  // paths from the lights in each pass
     std::optional<double> radius = {};          // in the first pass; by a pilot if it is not given
     bool gather = false;                        // one more reflection is sampled before a map is read
+    static constexpr bool is_biased = true;
+
+    std::shared_ptr<const PathMethod> prepare(const Preparing& preparing) const;
+    void complete(const SamplingSettings& settings, const Film& film);
     bool operator==(const Photon&) const = default;
 };
 
@@ -108,6 +150,13 @@ struct Cache : PathOptions {
     Spacing records = Spacing::hessian;            // what says where records stand
     std::optional<double> accuracy = {};           // the error allowed to records (cache_settings.h)
     std::optional<std::uint32_t> directions = {};  // rays of a record in each pass
+    static constexpr bool is_biased = true;
+
+    // With defaults for what is not given.
+    CacheSettings settings() const;
+
+    std::shared_ptr<const PathMethod> prepare(const Preparing& preparing) const;
+    void complete(const SamplingSettings& settings, const Film& film);
     bool operator==(const Cache&) const = default;
 };
 
@@ -115,6 +164,10 @@ struct Cache : PathOptions {
 struct Metropolis : PathOptions {
     static constexpr const char* name = "metropolis";
     std::optional<std::uint32_t> chain = {};  // states of each chain in a replicate
+
+    void expect(const Scene& scene) const;
+    std::shared_ptr<const PathMethod> prepare(const Preparing& preparing) const;
+    void complete(const SamplingSettings& settings, const Film& film);
     bool operator==(const Metropolis&) const = default;
 };
 
@@ -123,18 +176,26 @@ struct Metropolis : PathOptions {
 struct Mixed : PathOptions {
     static constexpr const char* name = "mixed";
     std::optional<LeastError> adaptive = {};  // what it makes least; default: all
+
+    std::shared_ptr<const PathMethod> prepare(const Preparing& preparing) const;
     bool operator==(const Mixed&) const = default;
 };
 
 // Classic ray tracing (Whitted): walks go on through mirrors and glass alone.
 struct Classic : PathOptions {
     static constexpr const char* name = "classic";
+    static constexpr DirectLight direct_light = DirectLight::light;
+
+    std::shared_ptr<const PathMethod> prepare(const Preparing& preparing) const;
     bool operator==(const Classic&) const = default;
 };
 
 // Each bounce is sampled by walks of its own.
 struct Pointwise : PathOptions {
     static constexpr const char* name = "pointwise";
+
+    void expect(const Scene& scene) const;
+    std::shared_ptr<const PathMethod> prepare(const Preparing& preparing) const;
     bool operator==(const Pointwise&) const = default;
 };
 
@@ -197,7 +258,7 @@ inline std::optional<LeastError> adaptive_of(const Method& method) {
 
 // Whether its pictures differ from the terms by an error that samples do not show, and estimate it.
 inline bool is_biased(const Method& method) {
-    return has_fields(method) || std::holds_alternative<method::Photon>(method) || std::holds_alternative<method::Cache>(method);
+    return std::visit([]<class M>(const M&) { return HasFields<M> || requires { M::is_biased; }; }, method);
 }
 
 }  // namespace neumann

@@ -6,8 +6,9 @@
 
 namespace neumann {
 
-void report_bias(const Film& film, const SeriesMoments::Result& result, PathGenerator generator, BounceSeries& series) {
-    if (!result.has_differences()) return;
+void report_bias(const Film& film, const SeriesMoments::Result& result, const PathMethod& method, BounceSeries& series) {
+    const std::optional<TwoRadii> radii = method.two_radii();
+    if (!radii || !result.has_differences()) return;
     const auto report = [&](const Estimate& picture, double noise) {
         const double all = relative_discretisation(picture);
         return report_discretisation(film, picture,
@@ -18,7 +19,7 @@ void report_bias(const Film& film, const SeriesMoments::Result& result, PathGene
         for (const Rgb& x : image.pixels) squares += glm::dot(x, x);
         return std::sqrt(squares);
     };
-    const double part = part_of_bias(generator);
+    const double part = radii->part_of_bias;
     double noise = 0.0;
     for (std::size_t i = 0; i < series.report.bounces.size(); ++i) {
         const Estimate term = series.term(i);
@@ -29,9 +30,9 @@ void report_bias(const Film& film, const SeriesMoments::Result& result, PathGene
     const Estimate sum = series.sum(series.report.bounces.size() - 1);
     const double mean = size(sum.mean);
     series.report.sum_discretisation =
-        report(sum, generator == PathGenerator::photon ? relative_standard_error(sum) / (std::numbers::sqrt2 * part)
-                    : mean > 0.0                       ? noise / (part * mean)
-                                                       : 0.0);
+        report(sum, radii->difference_is_of_kernel ? relative_standard_error(sum) / (std::numbers::sqrt2 * part)
+                    : mean > 0.0                   ? noise / (part * mean)
+                                                   : 0.0);
 }
 
 }  // namespace neumann

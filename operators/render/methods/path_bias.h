@@ -1,4 +1,4 @@
-// The bias of methods that read light near a point (pictures/picture_bias.h), in the series and in its report.
+// The bias of methods that read light near a point (picture_bias.h), in the series and in its report.
 #pragma once
 
 #include "operators/render/methods/bounce_series.h"
@@ -9,14 +9,15 @@ namespace neumann {
 
 // The picture with its bias, if the method has one; `difference()` is its picture of the differences between two radii.
 template <class Difference>
-Estimate with_bias(Estimate picture, const Difference& difference, PathGenerator generator, const SeriesMoments::Result& result) {
-    if (result.has_differences()) picture.discretisation = stated_bias(generator, difference());
+Estimate with_bias(Estimate picture, const Difference& difference, const std::optional<TwoRadii>& radii,
+                   const SeriesMoments::Result& result) {
+    if (radii && result.has_differences()) picture.discretisation = stated_bias(*radii, difference());
     return picture;
 }
 
 // `relative` is without the noise of the difference itself. In the sum that is taken to be, with photon maps, what it is for their
 // kernel if all noise is of photons: its variance is half of the picture's; and with a cache that of the terms, as if they were
 // independent.
-void report_bias(const Film& film, const SeriesMoments::Result& result, PathGenerator generator, BounceSeries& series);
+void report_bias(const Film& film, const SeriesMoments::Result& result, const PathMethod& method, BounceSeries& series);
 
 }  // namespace neumann

@@ -15,30 +15,9 @@ constexpr double shortest_chain_to_judge = 16.0;
 
 void warn_of_paths(BounceSeries& series, const RenderJob& job, const SamplingSettings& settings, const RenderedSeries& sampled,
                    double albedo) {
-    const Scene& scene = job.scene;
     const Goal& goal = job.goal;
     Warnings& warnings = series.warnings;
-    if (scene.emitters.has_delta_lights() && has_specular(scene.materials) && settings.generator != PathGenerator::light)
-        warnings.add(settings.generator == PathGenerator::bidirectional || settings.generator == PathGenerator::photon ||
-                             settings.generator == PathGenerator::metropolis
-                         ? "what is seen in a mirror of a light without extent is not found from either end and is missing"
-                         : "what a mirror throws on from a light without extent is not found by the walk and is missing");
-    if (series.paths == Paths::seen_directly)
-        warnings.add(
-            "--method light makes no path whose last reflection before the camera is in a mirror, of glass or of anything else "
-            "that "
-            "sends light in a single direction, and does not see what surrounds the scene: these are missing");
-    if (series.paths == Paths::specular)
-        warnings.add(
-            "--method classic makes only paths whose reflections are specular but for the last one: the light of all other "
-            "paths is missing");
-    if (series.paths == Paths::without_specular)
-        warnings.add(
-            "--method surface makes no path by way of a mirror, of glass or of anything else that sends light in a single "
-            "direction: what these reflect and let through is missing");
-    if (settings.generator == PathGenerator::surface)
-        warnings.add(
-            "where surfaces meet at an angle, the variance of --method surface is infinite, even if the samples do not show it");
+    settings.method->warn(job.scene, warnings);
     if (settings.walk.roulette.kind == Roulette::Kind::fixed && settings.walk.roulette.survival <= albedo * albedo)
         warnings.add(
             fmt::format("--roulette {}: where the albedo is above {:.3g}, the sums of walks have an infinite variance, and the "

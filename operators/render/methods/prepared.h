@@ -1,14 +1,14 @@
-// What `guided` and `corrected` make ready before their first sample, once for a render: a pilot that tries a method leaves its
-// tables or fields to the render that follows.
+// What methods make ready before their first sample, once for a render: a pilot that tries a method leaves its tables or fields to the
+// render that follows.
 #pragma once
 
-#include "operators/paths/corrected/approximation.h"
-#include "operators/paths/guided/guide.h"
-#include "operators/render/methods/method.h"
-#include "operators/watch.h"
+#include "operators/render/from_paths/path_method.h"
 
+#include <algorithm>
 #include <cstdint>
+#include <map>
 #include <memory>
+#include <string>
 
 namespace neumann {
 
@@ -17,20 +17,25 @@ public:
     // For a render with this seed, up to this bounce at least.
     explicit Prepared(std::uint64_t seed, int bounces = 0) : seed_(seed), bounces_(bounces) {}
 
-    // Up to this bounce at least, approximately in so many bytes. They hold no reference to the scene, but to its geometry. Throw
-    // InputError, and Stopped if `watch` stops them.
-    std::shared_ptr<const Guide> guide(const method::Guided& guided, const Scene& scene, int bounces, double memory,
-                                       const Watch& watch);
-    std::shared_ptr<const Approximation> approximation(const method::Corrected& corrected, const Scene& scene, int bounces,
-                                                       double memory, const Watch& watch);
+    std::uint64_t seed() const { return seed_; }
+    int bounces(int wanted) const { return std::max(wanted, bounces_); }
+
+    // What was kept by the name of a method, or null. It refers to no scene, but to its geometry.
+    std::shared_ptr<const PathMethod> of(const std::string& method) const;
+    std::shared_ptr<const PathMethod> keep(const std::string& method, std::shared_ptr<const PathMethod> made);
     // Forgets what other methods have made.
-    void keep_only(const Method& method);
+    void keep_only(const std::string& method);
 
 private:
     std::uint64_t seed_;
     int bounces_;
-    std::shared_ptr<const Guide> guide_;
-    std::shared_ptr<const Approximation> approximation_;
+    std::map<std::string, std::shared_ptr<const PathMethod>> made_;
 };
+
+// Whether fields or tables that were made with these settings serve for others.
+template <class Settings>
+bool serves(const Settings& made, const Settings& wanted) {
+    return made.patches == wanted.patches && made.rays == wanted.rays && made.bounces >= wanted.bounces;
+}
 
 }  // namespace neumann

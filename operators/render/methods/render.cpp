@@ -37,7 +37,7 @@ BounceSeries render_chosen(const Scene& scene, const method::Auto& open, const G
                            const PilotOnDemand& pilot, Saving& saving, const Stopwatch& clock) {
     Prepared prepared(goal.seed, choose_bounces(goal, scene, pilot));
     std::optional<MethodChoice> choice = choose_method(open, scene, goal, pilot, prepared, watch);
-    prepared.keep_only(choice->method);
+    prepared.keep_only(name_of(choice->method));
     try {
         return render(scene, choice->method, goal, watch, pilot, saving, choice, prepared, clock);
     } catch (const Stopped&) {

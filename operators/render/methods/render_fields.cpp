@@ -8,7 +8,6 @@
 #include "operators/render/methods/crew.h"
 #include "operators/render/methods/preparation.h"
 #include "operators/render/methods/render_job.h"
-#include "operators/render/report/missing_paths.h"
 #include "operators/render/report/unmet_by_fields.h"
 
 #include <fmt/format.h>

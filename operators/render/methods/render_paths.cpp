@@ -2,12 +2,7 @@
 #include "core/base/error.h"
 #include "core/base/memory.h"
 #include "core/base/stopwatch.h"
-#include "operators/paths/cache/record_places.h"
-#include "operators/paths/corrected/approximation.h"
-#include "operators/paths/guided/guide.h"
-#include "operators/paths/photons/photon_pilot.h"
-#include "operators/paths/walk/tree_numbers.h"
-#include "operators/render/from_paths/mixture.h"
+#include "operators/render/from_paths/mixed_sampler.h"
 #include "operators/render/methods/crew.h"
 #include "operators/render/methods/path_bias.h"
 #include "operators/render/methods/path_warnings.h"
@@ -32,24 +27,16 @@ namespace {
 // The time for sampling, in seconds, if the set-up has used up the limit.
 constexpr double shortest_sampling = 1e-3;
 
-// The time of a sample beside that of a walk. Of Metropolis' chains by their rays: k + 1 for bounce k = 1 … N, and half an
-// independent path. Of the others as measured: their largest in boxes and on a mesh of 10,000 triangles in a room, of two
-// processors.
-double walks_worth(const Method& method, const SamplingSettings& settings, const RenderJob& job) {
-    if (std::holds_alternative<method::Metropolis>(method)) return 1.25 + 0.375 * settings.walk.bounces;
-    if (std::holds_alternative<method::Bidirectional>(method)) return 5.0;
-    if (std::holds_alternative<method::Light>(method)) return 2.0;
-    if (std::holds_alternative<method::Guided>(method) || std::holds_alternative<method::Corrected>(method)) return 2.0;
-    if (std::holds_alternative<method::Mixed>(method) || is_biased(method)) return 16.0;
-    if (!settings.tree) return 1.0;
+// The time of a sample beside that of a walk: by its rays, or as measured, the largest in boxes and on a mesh of 10,000 triangles in a
+// room, of two processors.
+double walks_worth(const SamplingSettings& settings, const RenderJob& job) {
+    const int N = settings.walk.bounces;
     const std::span<const double> rays = job.pilot().rays();
-    return walks_of_tree(settings.tree->of_depths,
-                         rays.first(std::min(rays.size(), static_cast<std::size_t>(settings.walk.bounces) + 1)));
+    return settings.method->walks_worth(N, rays.first(std::min(rays.size(), static_cast<std::size_t>(N) + 1)));
 }
 
 // Samples per pixel in one replicate: as many as still give several replicates.
-std::uint32_t choose_replicate_size(const SamplingGoal& goal, const Method& method, const SamplingSettings& settings,
-                                    const RenderJob& job) {
+std::uint32_t choose_replicate_size(const SamplingGoal& goal, const SamplingSettings& settings, const RenderJob& job) {
     if (job.saving.from) return job.saving.from->render.replicate_size;
     if (job.goal.replicates) return share_of_replicate(job.goal);
     if (goal.samples) return replicate_size(*goal.samples);  // which are whole replicates
@@ -58,7 +45,7 @@ std::uint32_t choose_replicate_size(const SamplingGoal& goal, const Method& meth
     const Split& split = settings.walk.split;
     const double pixels = static_cast<double>(film.crop_width) * film.crop_height,
                  seconds = job.pilot().seconds_per_walk(settings.walk.bounces) * std::max(split.lights, split.walks) *
-                           walks_worth(method, settings, job),
+                           walks_worth(settings, job),
                  affordable = *goal.seconds / (pixels * seconds);
     return std::bit_floor(
         static_cast<std::uint32_t>(std::clamp(affordable / fewest_replicates, 1.0, static_cast<double>(largest_replicate))));
@@ -118,23 +105,24 @@ void expect_room(const Method& method, const Film& film, std::uint32_t replicate
                         std::max<std::uint64_t>(states / chains_at_once, 1)));
 }
 
-RestVerdict rest_verdict(PathGenerator generator, const RenderJob& job) {
-    if (generator == PathGenerator::pointwise || job.goal.only_pictures) return RestVerdict::not_sampled;
+RestVerdict rest_verdict(const PathMethod& method, const RenderJob& job) {
+    if (!method.has_rest() || job.goal.only_pictures) return RestVerdict::not_sampled;
     return job.pilot().converges() ? RestVerdict::measured : RestVerdict::not_converging;
 }
 
 BounceSeries bounce_series(const RenderedSeries& series, const std::shared_ptr<const SeriesMoments::Result>& result,
-                           const std::shared_ptr<const LeastErrors>& least, PathGenerator generator, SeriesReport report) {
+                           const std::shared_ptr<const LeastErrors>& least, const std::optional<TwoRadii>& radii,
+                           SeriesReport report) {
     BounceSeries out;
-    out.term = [result, least, generator](std::size_t i) {
+    out.term = [result, least, radii](std::size_t i) {
         PixelEstimate term = with_bias(
-            result->term(i), [&] { return result->difference_of_term(i); }, generator, *result);
+            result->term(i), [&] { return result->difference_of_term(i); }, radii, *result);
         if (least) term.least_error = least->of_term(i);
         return term;
     };
-    out.sum = [result, least, generator](std::size_t i) {
+    out.sum = [result, least, radii](std::size_t i) {
         PixelEstimate sum = with_bias(
-            result->sum(i), [&] { return result->difference_of_sum(i); }, generator, *result);
+            result->sum(i), [&] { return result->difference_of_sum(i); }, radii, *result);
         if (least) sum.least_error = least->of_sum(i);
         return sum;
     };
@@ -158,30 +146,22 @@ BounceSeries bounce_series(const RenderedSeries& series, const std::shared_ptr<c
 
 // The method with the options that had been left open.
 Method as_it_ran(Method method, const SamplingSettings& settings, const Film& film) {
+    const bool is_mixed = as<MixedPaths>(settings.method) != nullptr;
+    if (const auto* mixed = std::get_if<method::Mixed>(&method); mixed && !is_mixed) {  // its pilot was interrupted
+        method::Walk walk{*mixed};
+        walk.sampler = settings.sampler;
+        return walk;
+    }
     std::visit(
         [&]<class M>(M& m) {
-            if constexpr (MakesPaths<M>) m.sampler = settings.sampler;
+            if constexpr (MakesPaths<M>) {
+                m.sampler = settings.sampler;
+                m.complete(settings, film);
+            }
             if constexpr (requires { m.adaptive; })
-                if (!settings.allocation && !settings.mixture) m.adaptive = {};  // its pilot was interrupted
-            if constexpr (std::same_as<M, method::Guided>) {
-                m.patches = settings.guide->settings().patches;
-                m.directions = settings.guide->settings().rays;
-            }
-            if constexpr (std::same_as<M, method::Corrected>) {
-                m.patches = settings.approximation->settings().patches;
-                m.directions = settings.approximation->settings().rays;
-            }
-            if constexpr (std::same_as<M, method::Photon>) m.photons = settings.photons->settings.paths;
-            if constexpr (std::same_as<M, method::Cache>) {
-                m.accuracy = settings.records->settings().accuracy;
-                m.directions = settings.records->settings().rays;
-            }
-            if constexpr (std::same_as<M, method::Metropolis>)
-                m.chain = chain_numbers(settings.layout(film).paths(), settings.chain_length).length;
+                if (!settings.allocation && !is_mixed) m.adaptive = {};  // its pilot was interrupted
         },
         method);
-    if (const auto* mixed = std::get_if<method::Mixed>(&method); mixed && !settings.mixture)
-        return method::Walk{*mixed};  // its pilot was interrupted
     return method;
 }
 
@@ -216,13 +196,8 @@ void add_setup(BounceSeries& series, const SamplingSettings& settings, double se
     if (setup_seconds == 0.0) return;
     series.setup_seconds = setup_seconds;
     series.seconds += setup_seconds;
-    if (settings.guide) series.rays += settings.guide->rays();
-    if (settings.approximation) series.rays += settings.approximation->rays();
-    if (settings.photons) series.rays += settings.photons->rays;
-    if (settings.records) series.rays += settings.records->rays();
+    series.rays += settings.method->rays();
     if (settings.allocation) series.rays += settings.allocation->rays;
-    if (settings.tree) series.rays += settings.tree->rays;
-    if (settings.mixture) series.rays += settings.mixture->rays;
     for (Checkpoint& checkpoint : series.convergence) checkpoint.seconds += setup_seconds;
 }
 
@@ -238,11 +213,8 @@ PathRecord record_of(const RenderedSeries& sampled, const SamplingSettings& sett
     if (verdict == RestVerdict::not_converging)
         record.why_no_rest = fmt::format("{} of {} walks had not ended after {} bounces and were given up", job.pilot().given_up(),
                                          job.pilot().walks(), job.pilot().bounces() + Pilot::give_up);
-    record.photons = settings.photons;
-    record.records = settings.records;
+    record.paths = settings.method;
     record.chains = sampled.tally.chains;
-    record.tree = settings.tree;
-    record.mixture = settings.mixture;
     if (settings.allocation) {
         SamplingSettings as_sampled = settings;
         as_sampled.replicate_size = sampled.replicate_size;
@@ -259,7 +231,7 @@ PathRecord record_of(const RenderedSeries& sampled, const SamplingSettings& sett
 // What was sampled, as a series, but for its health.
 AsSeries as_series(const RenderedSeries& sampled, SeriesReport report, const Method& method, const SamplingSettings& settings,
                    std::uint64_t first, double setup_seconds, const RenderJob& job) {
-    const Paths paths = paths_of(settings.generator, job.scene);
+    const Paths paths = settings.method->paths(job.scene);
     if (paths != Paths::all) report_missing(report, job.pilot());
     const auto moments = std::make_shared<const SeriesMoments::Result>(sampled.moments.result());
     std::shared_ptr<const LeastErrors> least;
@@ -268,8 +240,8 @@ AsSeries as_series(const RenderedSeries& sampled, SeriesReport report, const Met
         report_least(report, *least);
     }
     const RestVerdict verdict = report.rest_verdict;
-    BounceSeries series = bounce_series(sampled, moments, least, settings.generator, std::move(report));
-    report_bias(job.scene.film, *moments, settings.generator, series);
+    BounceSeries series = bounce_series(sampled, moments, least, settings.method->two_radii(), std::move(report));
+    report_bias(job.scene.film, *moments, *settings.method, series);
     series.paths = paths;
     series.method = as_it_ran(method, settings, job.scene.film);
     series.record = record_of(sampled, settings, verdict, first, job);
@@ -404,12 +376,12 @@ BounceSeries render_by_paths(const Method& asked, const RenderJob& job) {
     const Stopwatch clock;
     if (set_up(method, job, settings)) setup_seconds += clock.seconds();
     if (to_reach.seconds) to_reach.seconds = std::max(*to_reach.seconds - job.seconds_gone(), shortest_sampling);
-    settings.replicate_size = choose_replicate_size(to_reach, method, settings, job);
+    settings.replicate_size = choose_replicate_size(to_reach, settings, job);
     if (!job.saving.from) expect_room(method, scene.film, settings.replicate_size);
     if (goal.part) take_part(*goal.part, settings.replicate_size, to_reach);
     if (to_reach.relative_error && !to_reach.samples && !to_reach.seconds) to_reach.seconds = longest_search;
 
-    const RestVerdict verdict = rest_verdict(settings.generator, job);
+    const RestVerdict verdict = rest_verdict(*settings.method, job);
     auto [sampled, report] = sample(method, settings, to_reach, verdict, job, setup_seconds);
     auto [series, moments] = as_series(sampled, std::move(report), method, settings, to_reach.first, setup_seconds, job);
     if (const auto* both = std::get_if<method::Bidirectional>(&method); both && both->ways) {
@@ -417,7 +389,7 @@ BounceSeries render_by_paths(const Method& asked, const RenderJob& job) {
         series.ways = render_ways(scene, settings, *both->ways, sampled.samples, {job.watch.stop, job.watch.progress});
     }
     auto& record = std::get<PathRecord>(series.record);
-    if (settings.generator == PathGenerator::walk && !settings.tree && !settings.shares_tails())
+    if (settings.method->ends_by_roulette())
         record.furnaces =
             furnaces(settings.walk.roulette, max_component(scene.materials.largest_basic_albedo()), settings.walk.bounces);
     if (goal.only_pictures) {

@@ -13,12 +13,11 @@ namespace neumann {
 // scene.
 SamplingSettings sampling_settings(const Method& method, const Scene& scene, const Plan& plan, std::uint64_t seed);
 
-// With defaults for what is not given.
-CacheSettings settings_of(const method::Cache& cache);
+// Throws InputError if the scene's integrator hides emitters, which a method of this name cannot.
+void expect_visible_emitters(const char* method, const Scene& scene);
 
-// Makes what a method needs before its first sample: the tables of `guided`, the fields of `corrected`, the radii of `photon`, the
-// places of `cache`, the numbers of samples of --tree and --adaptive. Returns whether it needs anything. Throws InputError, and
-// Stopped if `watch` stops it.
+// Makes what a method needs before its first sample, and the numbers of samples of --adaptive. Returns whether it needs anything.
+// Throws InputError, and Stopped if `watch` stops it.
 bool set_up(const Method& method, const Scene& scene, int bounces, double memory, SamplingSettings& settings, Prepared& prepared,
             const Watch& watch = {});
 

@@ -1,11 +1,13 @@
 #include "operators/render/methods/ways.h"
 
+#include "operators/render/from_paths/splat_sampler.h"
+
 namespace neumann {
 
 Ways render_ways(const Scene& scene, SamplingSettings settings, int bounce, std::uint64_t samples, const Watch& watch) {
     settings.walk.bounces = bounce;
     settings.walk.rest_probability = 0.0;
-    settings.ways_of_last_bounce = true;
+    settings.method = std::make_shared<const BidirectionalPaths>(BidirectionalPaths::Quantities::ways);
     const RenderedSeries series = render_series(scene, settings, {samples, std::nullopt, std::nullopt}, watch);
     const auto result = series.moments.result();
     const auto picture = [&](std::size_t q) {

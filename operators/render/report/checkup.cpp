@@ -1,7 +1,6 @@
 #include "operators/render/report/checkup.h"
 
 #include "core/geometry/rounding.h"
-#include "operators/paths/corrected/shared_points.h"
 #include "operators/paths/walk/path_group.h"
 
 #include <oneapi/tbb/parallel_for.h>
@@ -18,38 +17,35 @@ constexpr std::uint64_t most_groups = 256, fewest_groups = 16, vertices = 1u << 
 constexpr int most_bounces = 64;
 constexpr std::size_t self_hits_kept = 4;
 
-bool joins_subpaths(PathGenerator generator) {
-    return generator == PathGenerator::bidirectional || generator == PathGenerator::metropolis;
-}
+bool joins_subpaths(const PathMethod& method) { return method.starts_at_camera() && method.starts_at_lights(); }
 
 // The energy balance covers the bounces whose reflection is always sampled.
 int bounces_of_camera_paths(const SamplingSettings& settings) {
-    if (settings.generator == PathGenerator::light) return 0;
+    if (!settings.method->starts_at_camera()) return 0;
     const WalkSettings& walk = settings.walk;
-    const bool found_by_points = walk.direct.direct != DirectLight::bsdf && walk.direct.direct != DirectLight::mis;
-    const bool ends_early = !joins_subpaths(settings.generator) && found_by_points && walk.rest_probability == 0.0;
+    const bool ends_early = !joins_subpaths(*settings.method) && !settings.weighs_directions() && walk.rest_probability == 0.0;
     return std::min(walk.bounces - (ends_early ? 1 : 0), most_bounces);
 }
 int bounces_of_light_paths(const SamplingSettings& settings) {
-    if (settings.generator != PathGenerator::light && !joins_subpaths(settings.generator)) return 0;
-    const bool ends_early = joins_subpaths(settings.generator) || settings.walk.rest_probability == 0.0;
+    if (!settings.method->starts_at_lights()) return 0;
+    const bool ends_early = joins_subpaths(*settings.method) || settings.walk.rest_probability == 0.0;
     return std::min(settings.walk.bounces - (ends_early ? 1 : 0), most_bounces);
 }
 
 // Some paths of a replicate that are traced together.
 struct Group {
     std::uint64_t replicate;
-    std::uint32_t first, paths;
+    PathsToInspect::Group paths;
 };
 
 // Inspects one group of paths.
 struct GroupCheckup : PathObserver {
     GroupCheckup(const SampleLayout& layout, const Group& group, bool meets)
-        : layout(layout), replicate(group.replicate), first(group.first), paths(group.paths), rays_meet_surfaces(meets) {}
+        : layout(layout), replicate(group.replicate), paths(group.paths), rays_meet_surfaces(meets) {}
 
     const SampleLayout& layout;
     std::uint64_t replicate;
-    std::uint32_t first, paths;
+    PathsToInspect::Group paths;
     bool rays_meet_surfaces;  // false if rays end at sampled points, which may lie in the plane of their start
     std::optional<BalanceSheet> camera, light;
     std::uint64_t rays = 0;
@@ -62,7 +58,7 @@ struct GroupCheckup : PathObserver {
         if (!leaves_surface || !rays_meet_surfaces) return;
         ++rays;
         if (step.found && is_self_hit(step.from, step.to))
-            self_hits.push_back({step.bounce, layout.name(replicate, first + path), step.to.shape,
+            self_hits.push_back({step.bounce, layout.name(replicate, paths.first + path), step.to.shape,
                                  glm::length(step.to.position - step.from.position)});
     }
 };
@@ -80,20 +76,6 @@ double Checkup::self_hits_at_most() const {
     if (rays == 0) return 1.0;
     const double count = 0.5 * boost::math::quantile(boost::math::chi_squared(2.0 * static_cast<double>(self_hits) + 2.0), 0.95);
     return std::min(count / static_cast<double>(rays), 1.0);
-}
-
-std::string why_no_checkup(PathGenerator generator) {
-    if (generator == PathGenerator::pointwise) return "every bounce has a path of its own";
-    if (generator == PathGenerator::photon) return "photons are shared by all pixels, and those of a pass are traced together";
-    if (generator == PathGenerator::cache) return "records are shared by all pixels, and those of a pass are filled together";
-    return "";
-}
-
-std::string why_no_balance(PathGenerator generator) {
-    if (generator == PathGenerator::surface) return "by points on surfaces, a path's weight is not what arrives";
-    if (generator == PathGenerator::classic) return "by mirrors alone, a path's weight is not what arrives";
-    if (generator == PathGenerator::corrected) return "a walk's weight is only what points that pixels share leave to it";
-    return "";
 }
 
 namespace {
@@ -117,45 +99,34 @@ struct Inspection {
 Inspection inspect(const Scene& scene, const PictureSampler& sampler, std::uint64_t samples) {
     const SamplingSettings& settings = sampler.settings();
     const SampleLayout& layout = sampler.layout();
-    const MetropolisSampler* const chains = sampler.metropolis();
-    // With `corrected` the groups are of one replicate: its points take as long to make as a picture.
-    const CorrectedSampler* const corrected = sampler.corrected();
-    const auto points = corrected ? corrected->points_of(0) : std::nullopt;
-    const std::uint64_t groups = chains ? chains->independent_groups() : layout.groups(),
-                        all = groups * (corrected ? 1 : samples / settings.replicate_size);
+    const auto paths = sampler.paths().to_inspect();
+    const std::uint64_t groups = paths->groups(),
+                        all = groups * (paths->are_of_first_replicate() ? 1 : samples / settings.replicate_size);
     const auto length = static_cast<std::uint64_t>(settings.walk.bounces) + 1;
     const std::uint64_t count = std::min(all, std::clamp(vertices / (paths_at_once * length), fewest_groups, most_groups));
     const auto group_of = [&](std::uint64_t k) -> Group {
         const std::uint64_t number = k * all / count;
-        const auto in_replicate = static_cast<std::uint32_t>(number % groups);
-        if (chains) return {number / groups, in_replicate * chains_at_once, chains->independent_paths_of(in_replicate)};
-        const PixelGroup pixels = layout.group(in_replicate);
-        return {number / groups, layout.first_path(pixels.begin), pixels.paths()};
+        return {number / groups, paths->group(static_cast<std::uint32_t>(number % groups))};
     };
 
-    const bool has_balance = why_no_balance(settings.generator).empty();
+    const bool has_balance = settings.method->why_no_balance().empty();
     const int camera_bounces = has_balance ? bounces_of_camera_paths(settings) : 0,
               light_bounces = has_balance ? bounces_of_light_paths(settings) : 0;
     std::vector<std::optional<GroupCheckup>> found(count);
     oneapi::tbb::parallel_for(std::uint64_t{0}, count, [&](std::uint64_t k) {
-        GroupCheckup& look = found[k].emplace(layout, group_of(k), settings.generator != PathGenerator::surface);
+        GroupCheckup& look = found[k].emplace(layout, group_of(k), settings.method->rays_meet_surfaces());
         const auto stream = static_cast<std::uint32_t>(2 * k);
         const std::uint64_t seed = settings.seed ^ checkup_stream;
         if (camera_bounces > 0) look.camera.emplace(scene, false, camera_bounces, settings.walk.split.walks, seed, stream);
         if (light_bounces > 0) look.light.emplace(scene, true, light_bounces, 1, seed, stream + 1);
-        if (chains)
-            chains->retrace_independent(look.replicate, look.first / chains_at_once, look);
-        else if (corrected)
-            (void)corrected->retrace(look.replicate, look.first, points ? &*points : nullptr, look);
-        else
-            (void)sampler.retrace(look.replicate, look.first, look);
+        paths->retrace(look.replicate, look.paths, look);
         for (auto* sheet : {&look.camera, &look.light})
-            if (*sheet) (*sheet)->finish(look.paths);
+            if (*sheet) (*sheet)->finish(look.paths.paths);
     });
 
     Inspection result;
     for (auto& look : found) {
-        Inspection of_group{look->paths, look->rays, std::move(look->self_hits), {}, {}};
+        Inspection of_group{look->paths.paths, look->rays, std::move(look->self_hits), {}, {}};
         if (look->camera) of_group.camera.push_back(look->camera->shares());
         if (look->light) of_group.light.push_back(look->light->shares());
         result.add(std::move(of_group));
@@ -174,17 +145,15 @@ std::optional<EnergyBalance> balance_of(std::vector<std::vector<EnergyShares>> o
 }  // namespace
 
 std::optional<Checkup> check_up(const Scene& scene, const PictureSampler& sampler, std::uint64_t samples) {
-    if (!why_no_checkup(sampler.settings().generator).empty()) return std::nullopt;
+    if (!sampler.settings().method->why_no_checkup().empty()) return std::nullopt;
     Inspection all;
-    if (const MixedSampler* const mixed = sampler.mixed()) {
-        for (std::uint64_t part = 0; part < mixed->parts(); ++part) {
-            Inspection of_part = inspect(scene, mixed->part_of({0, part}).sampler, samples);
-            for (SelfHit& hit : of_part.self_hits) hit.name.sample = hit.name.sample * mixed->parts() + part;
-            all.add(std::move(of_part));
-        }
-    } else {
-        all = inspect(scene, sampler, samples);
+    const std::uint64_t parts = sampler.paths().parts();
+    for (std::uint64_t part = 0; part < parts; ++part) {
+        Inspection of_part = inspect(scene, sampler.paths().part_of({0, part}).sampler, samples);
+        for (SelfHit& hit : of_part.self_hits) hit.name.sample = hit.name.sample * parts + part;
+        all.add(std::move(of_part));
     }
+    if (parts == 0) all = inspect(scene, sampler, samples);
 
     Checkup result{all.paths,
                    all.rays,

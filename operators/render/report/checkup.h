@@ -5,7 +5,6 @@
 #include "operators/render/from_paths/picture_sampler.h"
 
 #include <optional>
-#include <string>
 #include <vector>
 
 namespace neumann {
@@ -33,13 +32,8 @@ struct Checkup {
     std::optional<EnergyBalance> camera, light;
 };
 
-// Why the paths of a method are not checked, or have no balance; "" where they are, and have one. Of a mixture it is the methods'
-// own matter.
-std::string why_no_checkup(PathGenerator generator);
-std::string why_no_balance(PathGenerator generator);
-
 // Checks about 16,000 paths of a render with `samples` samples per pixel, spread evenly over pixels and samples; fewer if they are
-// long. With `metropolis`: of the independent paths, from which chains start. With a mixture: of each method. Returns nothing if
+// long. Where paths are chains: of those from which they start. With a mixture: of each method. Returns nothing if the method's
 // why_no_checkup() says why. The same bits on any number of threads.
 std::optional<Checkup> check_up(const Scene& scene, const PictureSampler& sampler, std::uint64_t samples);
 

@@ -79,8 +79,8 @@ Health examine(const Scene& scene, const SamplingSettings& settings, const Rende
     const std::uint64_t of_this_seed =
         series.merged.empty() ? series.samples : series.merged.front().count * std::uint64_t{series.replicate_size};
     health.checkup = check_up(scene, sampler, of_this_seed);
-    health.why_no_checkup = why_no_checkup(settings.generator);
-    health.why_no_balance = why_no_balance(settings.generator);
+    health.why_no_checkup = settings.method->why_no_checkup();
+    health.why_no_balance = settings.method->why_no_balance();
     return health;
 }
 

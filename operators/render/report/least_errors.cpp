@@ -1,7 +1,5 @@
 #include "operators/render/report/least_errors.h"
 
-#include "operators/render/from_paths/mixture.h"
-#include "operators/render/report/missing_paths.h"
 #include "operators/render/report/reachable_light.h"
 #include "operators/statistics/few_events.h"
 #include "operators/statistics/one_sample_more.h"
@@ -27,25 +25,12 @@ Rgb times(const Rgb& a, const Rgb& b) {
     return product;
 }
 
-// Whether what a path of this quantity brings has no bound: it falls with the distance of a vertex from the camera, or with the
-// radius in which photons are read, and grows with 1/p of a light that is chosen seldom.
-bool samples_have_no_bound(PathGenerator generator, std::size_t q) {
-    return generator == PathGenerator::light || (generator == PathGenerator::photon && q > 1);
-}
-
-// Whether a point on a light, or on a surface, brings the more the nearer it is, for directions do not share its weight.
-bool near_lights_have_no_bound(const SamplingSettings& settings) {
-    const DirectLight direct = settings.walk.direct.direct;
-    return direct != DirectLight::bsdf && direct != DirectLight::mis;
-}
-
 // Upper bounds of what is measured of K^i Le, for each bounce, and of the rest, per channel.
 std::vector<Rgb> bounds(const Scene& scene, const SamplingSettings& settings) {
     const Rgb albedo = scene.materials.largest_albedo(),
               emitted = times(scene.emitters.largest_radiance(), Rgb(scene.camera.largest_response()));
     const LeftOut& left_out = settings.walk.left_out;
-    const bool ends =
-        left_out.rays_from_surfaces || (settings.generator == PathGenerator::classic && !has_specular(scene.materials));
+    const bool ends = left_out.rays_from_surfaces || settings.method->ends_at_first(scene);
     std::vector<Rgb> all{scene.hide_emitters ? Rgb(0.0) : emitted};
     Rgb bound = emitted;
     for (int i = 1; i <= settings.walk.bounces; ++i) {
@@ -55,21 +40,9 @@ std::vector<Rgb> bounds(const Scene& scene, const SamplingSettings& settings) {
     Rgb rest = times(bound, albedo);
     for (int c = 0; c < 3; ++c)
         if (rest[c] != 0.0) rest[c] = albedo[c] < 1.0 ? rest[c] / (1.0 - albedo[c]) : infinity;
-    const bool no_rest = settings.walk.rest_probability == 0.0 || settings.generator == PathGenerator::pointwise;
+    const bool no_rest = settings.walk.rest_probability == 0.0 || !settings.method->has_rest();
     all.push_back(no_rest || (ends && settings.walk.bounces > 0) ? Rgb(0.0) : rest);
     return all;
-}
-
-bool has_chains(const SamplingSettings& settings) {
-    return settings.generator == PathGenerator::metropolis ||
-           (settings.mixture && settings.mixture->has(PathGenerator::metropolis));
-}
-
-// Whether a pixel's value is a sum of events, none of which is negative; shared points and other colours have negative ones, and
-// photons and records (q > 1) are means of many.
-bool has_events(const SamplingSettings& settings) {
-    return !settings.colors && settings.generator != PathGenerator::corrected && !has_two_radii(settings.generator) &&
-           !(settings.mixture && settings.mixture->has(PathGenerator::corrected));
 }
 
 // Computes the bounds of one series, quantity by quantity.
@@ -77,10 +50,10 @@ class Look {
 public:
     Look(const Scene& scene, const SamplingSettings& settings, const SampleRanges& ranges, const SeriesMoments::Result& result)
         : scene_(&scene),
-          generator_(settings.generator),
-          near_lights_have_no_bound_(near_lights_have_no_bound(settings)),
-          has_chains_(has_chains(settings)),
-          has_events_(has_events(settings)),
+          method_(settings.method),
+          near_lights_have_no_bound_(!settings.weighs_directions()),
+          has_chains_(settings.method->has_chains()),
+          has_events_(!settings.colors && settings.method->has_events()),  // other colours may be negative
           result_(&result),
           ranges_(&ranges),
           quantities_(result.quantities()),
@@ -150,9 +123,9 @@ private:
     // Of a pixel, as a part of the mean number. Paths from lights are as many for all.
     double part_of_samples(std::size_t pixel) const {
         const double part = layout_.size(static_cast<std::uint32_t>(pixel)) / static_cast<double>(size_);
-        return splats(generator_) ? std::min(part, 1.0) : part;
+        return method_->splats() ? std::min(part, 1.0) : part;
     }
-    bool samples_are_mixtures(std::size_t q) const { return has_two_radii(generator_) && q > 1; }
+    bool samples_are_mixtures(std::size_t q) const { return method_->two_radii() && q > 1; }
     const SampleRange& range(std::size_t pixel, std::size_t q) const { return ranges_->of[pixel * stride_ + q]; }
 
     Rgb difference_nearby(std::size_t pixel, std::size_t q) const {
@@ -198,18 +171,18 @@ private:
     double difference_elsewhere(std::size_t pixel, std::size_t q, int c, double unmet) const {
         if (bounds_[q][c] == 0.0) return 0.0;
         if (q == 0)
-            return lights_.pixels[pixel][c] > 0.0 && samples_have_no_bound(generator_, q) ? infinity : lights_.pixels[pixel][c];
+            return lights_.pixels[pixel][c] > 0.0 && method_->is_boundless(q) ? infinity : lights_.pixels[pixel][c];
         if (albedo_.pixels[pixel][c] == 0.0) return 0.0;
         return met_[c] > 0.0 ? met_[c] : unmet;
     }
     // What the quantity can be at most in a pixel.
     double largest_mean(std::size_t pixel, std::size_t q, int c) const {
-        return q == 0 && samples_have_no_bound(generator_, q) ? lights_.pixels[pixel][c] : bounds_[q][c];
+        return q == 0 && method_->is_boundless(q) ? lights_.pixels[pixel][c] : bounds_[q][c];
     }
     // What a sample of the quantity may bring if none of the picture has brought anything: as much as one of an earlier bounce, or
     // at most what the bounds leave. Those that roulette lets go on bring more; who goes on into the rest brings all of it, at 1/p.
     Rgb brought_by_unmet(std::size_t q) const {
-        if (samples_have_no_bound(generator_, q)) return Rgb(infinity);
+        if (method_->is_boundless(q)) return Rgb(infinity);
         const bool is_rest = q + 1 == quantities_;
         const Rgb albedo = scene_->materials.largest_albedo();
         Rgb brought(0.0);
@@ -241,7 +214,7 @@ private:
         const int width = result_->width(), height = result_->height();
         std::vector<char> wanted(pixels, 0);
         const auto has_unmet = [&](std::size_t pixel) {
-            for (std::size_t q = generator_ == PathGenerator::light ? 0 : 1; q < quantities_; ++q) {
+            for (std::size_t q = method_->starts_at_camera() ? 1 : 0; q < quantities_; ++q) {
                 const Rgb mean = result_->term_at(pixel, q);
                 for (int c = 0; c < 3; ++c)
                     if (mean[c] == 0.0 && bounds_[q][c] > 0.0) return true;
@@ -256,7 +229,7 @@ private:
             for_neighbourhood(width, height, pixel, [&](std::size_t other) {
                 albedo_.pixels[pixel] = glm::max(albedo_.pixels[pixel], seen.albedo.pixels[other]);
             });
-        if (generator_ != PathGenerator::light) return;
+        if (method_->starts_at_camera()) return;
         for (std::size_t pixel = 0; pixel < pixels; ++pixel)
             for_neighbourhood(width, height, pixel, [&](std::size_t other) {
                 lights_.pixels[pixel] = glm::max(lights_.pixels[pixel], seen.emitted.pixels[other]);
@@ -264,7 +237,7 @@ private:
     }
 
     const Scene* scene_;
-    PathGenerator generator_;
+    std::shared_ptr<const PathMethod> method_;
     bool near_lights_have_no_bound_;
     bool has_chains_, has_events_;
     const SeriesMoments::Result* result_;
@@ -294,11 +267,11 @@ LeastErrors::LeastErrors(const Scene& scene, const SamplingSettings& settings, c
     Look look(scene, settings, series.moments.ranges(), result);
     for (std::size_t q = 0; q < terms_.size(); ++q) {
         // Samples of a pass share its photons or records, and those of a chain its states: they are one.
-        const bool is_shared = (has_two_radii(settings.generator) && q > 1) || (has_chains(settings) && q > 0);
+        const bool is_shared = (settings.method->two_radii() && q > 1) || (settings.method->has_chains() && q > 0);
         auto found = look.look(q, static_cast<double>(is_shared ? series.moments.replicates() : series.samples), t);
         terms_[q] = std::move(found.errors);
         means_at_most_[q] = found.mean_at_most;
-        if (!is_shared && !splats(settings.generator)) of_means_[q] = found.of_mean;
+        if (!is_shared && !settings.method->splats()) of_means_[q] = found.of_mean;
         if (q > 0) sums_[q] = sums_[q - 1];
         if (terms_[q].empty()) continue;
         sums_[q].resize(terms_[q].size());

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace neumann {
 
@@ -39,13 +38,9 @@ Image root_mean_square_nearby(const Image& image) {
 
 }  // namespace
 
-double part_of_bias(PathGenerator generator) {
-    return generator == PathGenerator::cache ? 1.0 / 3.0 : 1.0 - 1.0 / std::numbers::sqrt2;
-}
-
-Image stated_bias(PathGenerator generator, const Image& difference) {
-    Image bias = generator == PathGenerator::cache ? root_mean_square_nearby(difference) : difference;
-    for (Rgb& x : bias.pixels) x = glm::abs(x) / part_of_bias(generator);
+Image stated_bias(const TwoRadii& radii, const Image& difference) {
+    Image bias = radii.errs_both_ways ? root_mean_square_nearby(difference) : difference;
+    for (Rgb& x : bias.pixels) x = glm::abs(x) / radii.part_of_bias;
     return bias;
 }
 

@@ -28,7 +28,7 @@ OfReplicate retrace(const PictureSampler& sampler, std::uint32_t pixel, std::uin
     const std::size_t Q = sampler.quantities(), size = sampler.layout().size(pixel);
     const PlaceInGroup place = sampler.layout().place({pixel, replicate * size});
     NoOne no_one;
-    const std::vector<Rgb> group = sampler.retrace(place.replicate, place.first, no_one);
+    const std::vector<Rgb> group = sampler.paths().retrace(place.replicate, place.first, no_one);
     const auto begin = group.begin() + static_cast<std::ptrdiff_t>(place.path * Q);
     std::vector<Rgb> samples(begin, begin + static_cast<std::ptrdiff_t>(size * Q)), averaged = samples;
     PixelAverage work(Q);
@@ -73,10 +73,7 @@ std::vector<std::size_t> PixelHistory::largest(std::size_t most) const {
 }
 
 std::string why_no_history(const PictureSampler& sampler) {
-    const PathGenerator generator = sampler.settings().generator;
-    if (generator == PathGenerator::mixed) return "it is put together from the pictures of several methods";
-    if (splats(generator) || generator == PathGenerator::metropolis) return "the paths of all pixels bring light to it";
-    return "";
+    return sampler.settings().method->why_no_history();
 }
 
 PixelHistory history_of_pixel(std::span<const ReplicatesOf> replicates, std::uint32_t pixel) {

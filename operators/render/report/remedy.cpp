@@ -34,22 +34,7 @@ std::vector<bool> deltas_of_largest(const Replay& replay, std::size_t quantity) 
 std::vector<Remedy> remedies(const Scene& scene, const PictureSampler& sampler, const SampleName& name, std::size_t quantity) {
     const SamplingSettings& settings = sampler.settings();
     const bool rest = quantity == settings.pictures() - 1;
-    switch (settings.generator) {
-        case PathGenerator::pointwise:
-            return {scene.hide_emitters ? Remedy::ask_lights : Remedy::bidirectional};
-        case PathGenerator::surface:
-        case PathGenerator::classic:
-            return {Remedy::ask_lights};
-        case PathGenerator::light:
-        case PathGenerator::photon:
-        case PathGenerator::cache:
-        case PathGenerator::metropolis:
-            return {Remedy::bidirectional};
-        case PathGenerator::bidirectional:
-            return rest ? std::vector{Remedy::more_bounces} : std::vector<Remedy>();
-        default:
-            break;
-    }
+    if (auto of_method = settings.method->remedies(scene, rest)) return std::move(*of_method);
     const std::vector<bool> is_delta = deltas_of_largest(replay(sampler, name), quantity);
     const auto scatters = [](bool delta) { return !delta; };
     const auto last = std::find_if(is_delta.rbegin(), is_delta.rend(), scatters).base();  // after the last that is not a delta

@@ -8,13 +8,6 @@
 
 namespace neumann {
 
-enum class Remedy {
-    ask_lights,     // the walk with multiple importance sampling: the vertex that hit the light could have sampled it
-    bidirectional,  // two neighbouring vertices, or the camera and the first vertex, can be connected: paths from the lights find
-                    // light behind a delta lobe more often than walks hit it by chance
-    more_bounces    // the rest is sampled from the camera alone, so a larger N helps
-};
-
 // The remedies that scene and path allow for a sample of a quantity (bounce 0 … N or the rest); several are to be combined. Empty
 // if every method makes such a path by chance only.
 std::vector<Remedy> remedies(const Scene& scene, const PictureSampler& sampler, const SampleName& name, std::size_t quantity);

@@ -17,13 +17,14 @@ bool is_finite(const ReplayedStep& replayed) {
 }
 
 Replay replay(const PictureSampler& sampler, const SampleName& name) {
-    if (const MixedSampler* mixed = sampler.mixed()) {
-        const auto& [of_part, name_there, part, method] = mixed->part_of(name);
+    const PathSampler& paths = sampler.paths();
+    if (paths.parts() > 0) {
+        const auto& [of_part, name_there, part, method] = paths.part_of(name);
         Replay replayed = replay(of_part, name_there);
-        for (std::size_t q = 0; q < replayed.terms.size(); ++q) replayed.terms[q] *= mixed->scale(part, q, name.pixel);
+        for (std::size_t q = 0; q < replayed.terms.size(); ++q) replayed.terms[q] *= paths.scale(part, q, name.pixel);
         for (ReplayedStep& step : replayed.steps)
             for (auto& [quantity, value, position] : step.found)
-                value *= position ? mixed->scale(part, quantity, *position) : mixed->scale(part, quantity, name.pixel);
+                value *= position ? paths.scale(part, quantity, *position) : paths.scale(part, quantity, name.pixel);
         return replayed;
     }
     struct Recorder : PathObserver {
@@ -47,12 +48,12 @@ Replay replay(const PictureSampler& sampler, const SampleName& name) {
     } recorder;
     const PlaceInGroup place = sampler.layout().place(name);
     recorder.chosen = place.path;
-    const std::vector<Rgb> samples = sampler.retrace(place.replicate, place.first, recorder);
+    const std::vector<Rgb> samples = paths.retrace(place.replicate, place.first, recorder);
     if (recorder.read_path) {
         const std::uint32_t path = *recorder.read_path;
-        recorder.chosen = sampler.settings().generator == PathGenerator::cache ? 0 : path % PhotonTracer::at_once;
+        recorder.chosen = paths.of_read(path);
         const std::size_t own = recorder.steps.size();
-        sampler.retrace_read(place.replicate, path, recorder);
+        paths.retrace_read(place.replicate, path, recorder);
         recorder.steps.resize(std::min(recorder.steps.size(), own + recorder.read_vertex));
     }
     const std::size_t terms = sampler.settings().pictures();

@@ -2,19 +2,21 @@
 #include "core/sampling/sampler.h"
 #include "operators/paths/cache/record_rays.h"
 #include "operators/paths/photons/photon_paths.h"
+#include "operators/paths/reuse/reusing_walk.h"
+#include "operators/paths/walk/guided_continuation.h"
 #include "operators/paths/walk/path_group.h"
+#include "operators/paths/walk/tree_walk.h"
 #include "operators/paths/walk/walk.h"
 #include "operators/render/from_paths/cache_group.h"
 #include "operators/render/from_paths/corrected_group.h"
 #include "operators/render/from_paths/metropolis_group.h"
 #include "operators/render/from_paths/photon_group.h"
-#include "operators/render/from_paths/picture_sampler.h"
-#include "operators/render/from_paths/pixel_groups.h"
+#include "operators/render/from_paths/pixel_samples.h"
 #include "operators/render/from_paths/splat_group.h"
+#include "operators/render/from_paths/walk_estimators.h"
 #include "operators/render/report/watched_paths.h"
 
 #include <algorithm>
-#include <stdexcept>
 
 namespace neumann {
 
@@ -63,33 +65,20 @@ void ReusingEstimator::trace(PathObserver& observer, std::span<const CameraRay> 
         WatchedPaths(observer));
 }
 
-std::vector<Rgb> PictureSampler::retrace(std::uint64_t replicate, std::uint32_t first, PathObserver& observer) const {
-    if (const auto* whole_pictures = std::get_if<SplatSampler>(&sampler_))
-        return whole_pictures->retrace(replicate, first, observer);
-    if (const auto* corrected = std::get_if<CorrectedSampler>(&sampler_)) {
-        const auto points = corrected->points_of(replicate);
-        return corrected->retrace(replicate, first, points ? &*points : nullptr, observer);
-    }
-    if (const auto* photons = std::get_if<PhotonSampler>(&sampler_)) return photons->retrace(replicate, first, observer);
-    if (const auto* cache = std::get_if<CacheSampler>(&sampler_)) return cache->retrace(replicate, first, observer);
-    if (const auto* chains = std::get_if<MetropolisSampler>(&sampler_)) return chains->retrace(replicate, first, observer);
+template class WalkEstimator<MaterialContinuation>;
+template class WalkEstimator<SurfaceContinuation>;
+template class WalkEstimator<SpecularContinuation>;
+template class WalkEstimator<GuidedContinuation>;
+
+std::vector<Rgb> EstimatorSampler::retrace(std::uint64_t replicate, std::uint32_t first, PathObserver& observer) const {
     PixelSamples samples;
-    samples.begin(scene_.film, settings_, layout_, layout_.group_with(first));
+    samples.begin(scene_->film, settings_, layout_, layout_.group_with(first));
     PathGroup group;
-    std::vector<std::uint64_t> rays(quantities());
-    std::visit(
-        [&](const auto& estimator) {
-            if constexpr (std::is_same_v<std::decay_t<decltype(estimator)>, PointwiseEstimator>) {
-                throw std::logic_error("PictureSampler: the pointwise method has no paths");
-            } else {
-                const auto watched = [&](auto camera_rays, auto random, Walkers& walkers, TermSamples& result) {
-                    estimator.trace(observer, camera_rays, random, walkers, result);
-                };
-                trace(scene_, watched, std::span(samples.samplers), std::span<const Pixel>(samples.pixels), replicate, group,
-                      std::span(rays));
-            }
-        },
-        std::get<TermEstimator>(sampler_));
+    std::vector<std::uint64_t> rays(settings_.quantities());
+    const auto watched = [&](auto camera_rays, auto random, Walkers& walkers, TermSamples& result) {
+        estimator_->trace(observer, camera_rays, random, walkers, result);
+    };
+    trace(*scene_, watched, std::span(samples.samplers), std::span<const Pixel>(samples.pixels), replicate, group, std::span(rays));
     return std::move(group.samples);
 }
 
@@ -120,6 +109,39 @@ std::optional<SharedPoints> CorrectedSampler::points_of(std::uint64_t replicate)
     return points_->make(replicate, rays, given_up, {});
 }
 
+std::vector<Rgb> CorrectedSampler::retrace(std::uint64_t replicate, std::uint32_t first, PathObserver& observer) const {
+    const auto points = points_of(replicate);
+    return retrace(replicate, first, points ? &*points : nullptr, observer);
+}
+
+namespace {
+
+class WithPointsOfFirst : public PathsToInspect {
+public:
+    WithPointsOfFirst(const CorrectedSampler& sampler, const SampleLayout& layout)
+        : sampler_(sampler), layout_(layout), points_(sampler.points_of(0)) {}
+    std::uint32_t groups() const override { return layout_.groups(); }
+    Group group(std::uint32_t number) const override {
+        const PixelGroup pixels = layout_.group(number);
+        return {layout_.first_path(pixels.begin), pixels.paths()};
+    }
+    bool are_of_first_replicate() const override { return true; }
+    void retrace(std::uint64_t replicate, const Group& group, PathObserver& observer) const override {
+        (void)sampler_.retrace(replicate, group.first, points_ ? &*points_ : nullptr, observer);
+    }
+
+private:
+    const CorrectedSampler& sampler_;
+    const SampleLayout& layout_;
+    std::optional<SharedPoints> points_;
+};
+
+}  // namespace
+
+std::unique_ptr<const PathsToInspect> CorrectedSampler::to_inspect() const {
+    return std::make_unique<const WithPointsOfFirst>(*this, layout_);
+}
+
 std::vector<Rgb> CorrectedSampler::retrace(std::uint64_t replicate, std::uint32_t first, const SharedPoints* points,
                                            PathObserver& observer) const {
     Workspace work(settings_.quantities());
@@ -137,7 +159,7 @@ std::vector<Rgb> PhotonSampler::retrace(std::uint64_t replicate, std::uint32_t f
     return std::move(work.group.samples);
 }
 
-void PhotonSampler::retrace_photon(std::uint64_t replicate, std::uint32_t path, PathObserver& observer) const {
+void PhotonSampler::retrace_read(std::uint64_t replicate, std::uint32_t path, PathObserver& observer) const {
     PhotonTracer::Workspace work;
     const std::uint32_t first = path / PhotonTracer::at_once * PhotonTracer::at_once;
     photons_.trace_group(
@@ -204,11 +226,29 @@ std::vector<Rgb> MetropolisSampler::retrace(std::uint64_t replicate, std::uint32
     return own;
 }
 
-void MetropolisSampler::retrace_independent(std::uint64_t replicate, std::uint32_t group, PathObserver& observer) const {
-    IndependentPaths::Workspace work;
-    std::vector<std::uint64_t> rays(settings_.quantities());
-    (void)independent_.trace_group(
-        replicate, group, work, [](auto...) {}, rays, WatchedPaths(observer));
+namespace {
+
+class IndependentOnes : public PathsToInspect {
+public:
+    IndependentOnes(const IndependentPaths& paths, std::size_t quantities) : paths_(paths), quantities_(quantities) {}
+    std::uint32_t groups() const override { return paths_.groups(); }
+    Group group(std::uint32_t number) const override { return {number * chains_at_once, paths_.paths_of_group(number)}; }
+    void retrace(std::uint64_t replicate, const Group& group, PathObserver& observer) const override {
+        IndependentPaths::Workspace work;
+        std::vector<std::uint64_t> rays(quantities_);
+        (void)paths_.trace_group(
+            replicate, group.first / chains_at_once, work, [](auto...) {}, rays, WatchedPaths(observer));
+    }
+
+private:
+    const IndependentPaths& paths_;
+    std::size_t quantities_;
+};
+
+}  // namespace
+
+std::unique_ptr<const PathsToInspect> MetropolisSampler::to_inspect() const {
+    return std::make_unique<const IndependentOnes>(independent_, settings_.quantities());
 }
 
 std::vector<Rgb> CacheSampler::retrace(std::uint64_t replicate, std::uint32_t first, PathObserver& observer) const {
@@ -238,14 +278,9 @@ private:
 
 }  // namespace
 
-void CacheSampler::retrace_ray(std::uint64_t replicate, std::uint32_t ray, PathObserver& observer) const {
+void CacheSampler::retrace_read(std::uint64_t replicate, std::uint32_t ray, PathObserver& observer) const {
     RecordRay of_record(observer);
     tracer_->trace_ray(replicate, ray, WatchedPaths(of_record));
-}
-
-void PictureSampler::retrace_read(std::uint64_t replicate, std::uint32_t path, PathObserver& observer) const {
-    if (const auto* cache = std::get_if<CacheSampler>(&sampler_)) return cache->retrace_ray(replicate, path, observer);
-    std::get<PhotonSampler>(sampler_).retrace_photon(replicate, path, observer);
 }
 
 }  // namespace neumann

@@ -1,0 +1,22 @@
+#include "operators/render/from_paths/path_method.h"
+
+#include <algorithm>
+
+namespace neumann {
+
+bool has_specular(const Materials& materials) {
+    const auto& bsdfs = materials.bsdfs();
+    return std::any_of(bsdfs.begin(), bsdfs.end(), [](const Bsdf& b) { return lobe(b).kind == Lobe::Kind::specular; });
+}
+
+const char* PathMethod::unfound_in_mirrors() const {
+    return "what a mirror throws on from a light without extent is not found by the walk and is missing";
+}
+
+void PathMethod::warn(const Scene& scene, Warnings& warnings) const {
+    if (const char* const unfound = unfound_in_mirrors();
+        unfound != nullptr && scene.emitters.has_delta_lights() && has_specular(scene.materials))
+        warnings.add(unfound);
+}
+
+}  // namespace neumann

@@ -1,0 +1,33 @@
+#include "core/base/error.h"
+#include "operators/render/from_paths/corrected_sampler.h"
+#include "operators/render/methods/method.h"
+#include "operators/render/methods/prepared.h"
+
+#include <fmt/format.h>
+
+#include <bit>
+
+namespace neumann::method {
+
+std::shared_ptr<const PathMethod> Corrected::prepare(const Preparing& in) const {
+    ApproximationSettings wanted{
+        .bounces = in.prepared.bounces(in.settings.walk.bounces), .seed = in.prepared.seed(), .memory = in.memory};
+    if (patches) wanted.patches = *patches;
+    if (directions) {
+        wanted.rays = *directions;
+        if (!std::has_single_bit(wanted.rays))
+            throw InputError(fmt::format("--directions {}: --method corrected expects a power of two", wanted.rays));
+    }
+    if (const auto made = in.prepared.of(name); made && serves(as<CorrectedPaths>(made)->approximation().settings(), wanted))
+        return made;
+    return in.prepared.keep(
+        name, std::make_shared<const CorrectedPaths>(std::make_shared<const Approximation>(in.scene, wanted, in.watch)));
+}
+
+void Corrected::complete(const SamplingSettings& settings, const Film&) {
+    const ApproximationSettings& taken = as<CorrectedPaths>(settings.method)->approximation().settings();
+    patches = taken.patches;
+    directions = taken.rays;
+}
+
+}  // namespace neumann::method
