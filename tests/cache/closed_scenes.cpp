@@ -54,8 +54,8 @@ TEST(CacheClosedScenesSlow, Furnace) {
 }
 
 // A sphere closed by a disc that shines, two surfaces with K = [0, ρd; ρs (1 − f), ρs f], f = 3/4
-// (operators/experiments/known/two_patches.cpp): 16 blocks at most, bounces 2 … 4, one channel of three that are alike. 48 comparisons at |z|
-// ≤ 4.5, a false alarm in 3000 runs.
+// (operators/experiments/known/two_patches.cpp): 16 blocks at most, bounces 2 … 4, one channel of three that are alike. 48
+// comparisons at |z| ≤ 4.5, a false alarm in 3000 runs.
 TEST(CacheClosedScenesSlow, SphereClosedByADisc) {
     const Scene scene = read_scene(SCENES "/sphere-segment/sphere-segment.xml", {{"res", "32"}});
     const Blocks cache(scene, cache_settings(scene, "128"), 8, 64);

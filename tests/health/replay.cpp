@@ -1,5 +1,6 @@
 // A sample that is traced again has the bits of the render: the means of pixels, put together from replayed samples alone, are
 // those of the pictures.
+#include "operators/render/report/replay.h"
 #include "core/reader/read_scene.h"
 #include "operators/paths/cache/record_places.h"
 #include "operators/paths/photons/photon_pilot.h"
@@ -7,7 +8,6 @@
 #include "operators/render/from_paths/photon_sampler.h"
 #include "operators/render/methods/method_options.h"
 #include "operators/render/methods/sampling.h"
-#include "operators/render/report/replay.h"
 
 #include <gtest/gtest.h>
 

@@ -40,9 +40,9 @@ Mixture patchwork(const SamplingSettings& guided, std::uint32_t pixels, std::uin
         numbers[1].exponents.push_back(b % 2 == 0 ? Allocation::none : 0);
         numbers[2].exponents.push_back(b == 4 ? Allocation::none : -1);
     }
-    const std::shared_ptr<const PathMethod> methods[parts] = {plain_walks(), guided.method, std::make_shared<const BidirectionalPaths>(),
-                                                              std::make_shared<const LightPaths>(),
-                                                              std::make_shared<const MetropolisPaths>()};
+    const std::shared_ptr<const PathMethod> methods[parts] = {
+        plain_walks(), guided.method, std::make_shared<const BidirectionalPaths>(), std::make_shared<const LightPaths>(),
+        std::make_shared<const MetropolisPaths>()};
     for (std::size_t m = 0; m < parts; ++m) {
         const bool has_even = methods[m]->has_even_samples();
         mixture.parts.push_back({fmt::format("method {}", m),

@@ -1,11 +1,11 @@
 // What is left out changes no picture: not by a bit where the random numbers are the same, and elsewhere not beyond what chance
 // does.
+#include "tests/physics/pictures.h"
 #include "core/reader/read_scene.h"
 #include "operators/render/from_fields/field_rendering.h"
 #include "operators/render/from_paths/classic_paths.h"
 #include "operators/render/from_paths/surface_paths.h"
 #include "operators/render/plan/plan.h"
-#include "tests/physics/pictures.h"
 #include "tests/physics/seed.h"
 #include "tests/plan/scenes.h"
 

@@ -1,8 +1,8 @@
 // Replicates that several helpers sample have the bits of those that one process samples, whoever did what and when.
+#include "operators/render/from_paths/shared_sampling.h"
 #include "apps/processes/share_message.h"
 #include "core/reader/read_scene.h"
 #include "operators/render/from_paths/rendered_series.h"
-#include "operators/render/from_paths/shared_sampling.h"
 #include "operators/render/methods/method_options.h"
 #include "operators/render/methods/sampling.h"
 

@@ -163,9 +163,8 @@ TEST(ReusingWalk, HasLessVarianceForItsRays) {
 // over renders is the mean square of the stated errors, to 4.5 standard deviations of such a ratio, √(2/399).
 TEST(ReusingWalk, StatesTheErrorOfMeansOverPixels) {
     const Scene scene = scene_of("cornell-box", "8");
-    SamplingSettings settings{.method = std::make_shared<const WalkPaths>(8u),
-                              .walk = {.bounces = 3, .rest_probability = 0.0},
-                              .replicate_size = 4};
+    SamplingSettings settings{
+        .method = std::make_shared<const WalkPaths>(8u), .walk = {.bounces = 3, .rest_probability = 0.0}, .replicate_size = 4};
     std::vector<double> means;
     double stated = 0.0;
     constexpr int renders = 400;

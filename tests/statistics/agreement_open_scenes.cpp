@@ -78,7 +78,8 @@ void expect_agreement(const std::string& lights, bool found_by_chance) {
     expect_alike(means(sample(scene, plain_walks(), DirectLight::light, 2, 2048)), walked, "walk by lights alone");
     if (found_by_chance) {
         expect_alike(means(sample(scene, plain_walks(), DirectLight::bsdf, 3, 2048)), walked, "walk by chance alone");
-        expect_alike(means(sample(scene, std::make_shared<const PointwisePaths>(), DirectLight::mis, 4, 1024)), walked, "pointwise");
+        expect_alike(means(sample(scene, std::make_shared<const PointwisePaths>(), DirectLight::mis, 4, 1024)), walked,
+                     "pointwise");
     }
     for (const FieldReading method : {FieldReading::matrix, FieldReading::gather}) {
         FieldSettings settings;

@@ -71,8 +71,8 @@ TEST(AgreementSlow, OfTheOperatorsAndTheWalkInEveryBounce) {
     const auto operators = render(scene, std::make_shared<const PointwisePaths>(), DirectLight::bsdf, 1, 8192);
     Comparison found;
     for (const DirectLight direct : {DirectLight::mis, DirectLight::bsdf, DirectLight::light}) {
-        const auto walk = render(scene, plain_walks(), direct, 2 + static_cast<std::uint64_t>(direct),
-                                 direct == DirectLight::bsdf ? 4096 : 512);
+        const auto walk =
+            render(scene, plain_walks(), direct, 2 + static_cast<std::uint64_t>(direct), direct == DirectLight::bsdf ? 4096 : 512);
         for (std::size_t i = 0; i <= bounces; ++i)
             for (const int size : {resolution, 8}) {
                 const std::string what =
@@ -99,8 +99,8 @@ TEST_P(AgreementOfGuidedSlow, WithTheWalkInEveryBounce) {
     Comparison found;
     for (const DirectLight direct : {DirectLight::mis, DirectLight::light}) {
         const std::uint64_t seed = physics::fixed_seed + 1 + static_cast<std::uint64_t>(direct);
-        const auto guide = std::make_shared<const GuidedPaths>(std::make_shared<const Guide>(
-            scene, GuideSettings{.patches = 500, .rays = 256, .bounces = bounces, .seed = seed}));
+        const auto guide = std::make_shared<const GuidedPaths>(
+            std::make_shared<const Guide>(scene, GuideSettings{.patches = 500, .rays = 256, .bounces = bounces, .seed = seed}));
         const auto guided = render(scene, guide, direct, seed, samples);
         for (std::size_t i = 0; i <= bounces; ++i)
             for (const int size : {resolution, 8}) {

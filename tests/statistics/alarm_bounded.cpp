@@ -47,8 +47,8 @@ Scene balls(int resolution) {
 
 std::shared_ptr<const PathMethod> made(const std::string& method, const Scene& scene, std::uint64_t seed = 1) {
     if (method == "guided")
-        return std::make_shared<const GuidedPaths>(std::make_shared<const Guide>(
-            scene, GuideSettings{.patches = 200, .rays = 256, .bounces = bounces, .seed = seed}));
+        return std::make_shared<const GuidedPaths>(
+            std::make_shared<const Guide>(scene, GuideSettings{.patches = 200, .rays = 256, .bounces = bounces, .seed = seed}));
     if (method == "pointwise") return std::make_shared<const PointwisePaths>();
     if (method == "bidirectional") return std::make_shared<const BidirectionalPaths>();
     if (method == "light") return std::make_shared<const LightPaths>();
@@ -142,8 +142,7 @@ TEST(BoundedSamples, AreKnownByMethod) {
     EXPECT_TRUE(bounded(sky, "walk", DirectLight::bsdf));
     EXPECT_FALSE(bounded(sky, "walk", DirectLight::light));
     EXPECT_FALSE(bounded(sky, "walk", DirectLight::surfaces));
-    for (const char* method : {"surface", "light", "classic"})
-        EXPECT_FALSE(bounded(sky, method));
+    for (const char* method : {"surface", "light", "classic"}) EXPECT_FALSE(bounded(sky, method));
     SamplingSettings ways;
     ways.method = std::make_shared<const BidirectionalPaths>(BidirectionalPaths::Quantities::ways);
     EXPECT_FALSE(samples_are_bounded(sky, ways));

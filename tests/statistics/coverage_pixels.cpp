@@ -161,8 +161,9 @@ TEST(PixelCoverageSlow, WhereALampGoesDownBehindAScreen) {
     const auto exact = truth(scene, open_from, open_to);
     expect_right(count_and_print("walk, Sobol", scene, exact, plain_walks(), SamplerKind::sobol), "Sobol");
     expect_right(count_and_print("walk, independent", scene, exact, plain_walks(), SamplerKind::independent), "independent");
-    expect_right(count_and_print("bidirectional, Sobol", scene, exact, std::make_shared<const BidirectionalPaths>(), SamplerKind::sobol),
-                 "bidirectional");
+    expect_right(
+        count_and_print("bidirectional, Sobol", scene, exact, std::make_shared<const BidirectionalPaths>(), SamplerKind::sobol),
+        "bidirectional");
 }
 
 TEST(PixelCoverageSlow, OfASliver) {

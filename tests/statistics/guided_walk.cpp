@@ -215,8 +215,8 @@ TEST(GuidedWalk, SameBitsOnAnyThreads) {
     for (const std::size_t threads : {1, 2, 7}) {
         const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, threads);
         results.push_back(
-            render(scene,
-                   {.method = std::make_shared<const GuidedPaths>(guide(scene)), .walk = {.bounces = 4}, .seed = fixed_seed}, 4)
+            render(scene, {.method = std::make_shared<const GuidedPaths>(guide(scene)), .walk = {.bounces = 4}, .seed = fixed_seed},
+                   4)
                 .result);
     }
     for (std::size_t i = 0; i <= 5; ++i)
@@ -231,12 +231,7 @@ TEST(GuidedWalk, SameBitsOnAnyThreads) {
 TEST(GuidedWalkSlow, HasLessVarianceThanThePlainWalk) {
     const Scene scene = cornell_box(48);
     const auto rendered = [&](const std::shared_ptr<const PathMethod>& method) {
-        return render(scene,
-                      {.method = method,
-                       .walk = {.bounces = 7, .rest_probability = 0.0},
-                       .seed = fixed_seed},
-                      32)
-            .result;
+        return render(scene, {.method = method, .walk = {.bounces = 7, .rest_probability = 0.0}, .seed = fixed_seed}, 32).result;
     };
     const auto plain = rendered(plain_walks()), guided = rendered(std::make_shared<const GuidedPaths>(guide(scene, 2000)));
     for (std::size_t i = 2; i <= 6; ++i)

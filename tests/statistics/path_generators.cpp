@@ -74,9 +74,9 @@ TEST(PathGeneratorsSlow, AgreeInTheMeanOfEveryBounce) {
     for (const Case& c : cases) {
         const Scene scene = scene_of(c);
         const auto find = [&](const std::shared_ptr<const PathMethod>& method, std::uint64_t seed, const Split& split = {}) {
-            return render(
-                scene, {.method = method, .walk = {.bounces = bounces, .split = split, .rest_probability = 0.0}, .seed = seed},
-                128);
+            return render(scene,
+                          {.method = method, .walk = {.bounces = bounces, .split = split, .rest_probability = 0.0}, .seed = seed},
+                          128);
         };
         const auto expect_agreement = [&](const Result& a, const Result& b, std::size_t i, const char* what) {
             if (a.infinite(i) || b.infinite(i)) return;

@@ -50,8 +50,7 @@ void CacheSampler::trace_group(std::uint64_t replicate, const PixelGroup& pixels
                 if (is_finite(lost)) out.quantities[i * Q + terms + q] += lost;  // what is not is found in the term
                 all += weight * E;
             }
-            observer.reads(i,
-                           static_cast<std::uint32_t>(*largest * records_->cells().size() + pass.brightest_ray(*largest)),
+            observer.reads(i, static_cast<std::uint32_t>(*largest * records_->cells().size() + pass.brightest_ray(*largest)),
                            std::numeric_limits<std::uint32_t>::max(), all);
             return true;
         };

@@ -1,5 +1,5 @@
-// Samples the terms by an irradiance cache (operators/paths/cache/cache_walk.h). All pixels of a replicate read the same records, so a
-// replicate is a whole picture: a pass, in which all records have sampled their rays anew.
+// Samples the terms by an irradiance cache (operators/paths/cache/cache_walk.h). All pixels of a replicate read the same records,
+// so a replicate is a whole picture: a pass, in which all records have sampled their rays anew.
 #pragma once
 
 #include "core/sampling/sampler.h"
@@ -26,9 +26,9 @@ public:
     bool is_prepared() const override { return true; }
     std::uint64_t rays() const override { return records_->rays(); }
     double walks_worth(int, std::span<const double>) const override { return 16.0; }
-    // r√2 and r; it errs up and down between its records. Where light has edges the error is of order r, and the difference 0.41 of it;
-    // where it is smooth, of order r², and the difference the whole. A third is taken, as the grid convergence index has it for two
-    // grids and an order of 2 (Roache, Perspective: A Method for Uniform Reporting of Grid Refinement Studies, 1994).
+    // r√2 and r; it errs up and down between its records. Where light has edges the error is of order r, and the difference 0.41 of
+    // it; where it is smooth, of order r², and the difference the whole. A third is taken, as the grid convergence index has it for
+    // two grids and an order of 2 (Roache, Perspective: A Method for Uniform Reporting of Grid Refinement Studies, 1994).
     std::optional<TwoRadii> two_radii() const override {
         return TwoRadii{.part_of_bias = 1.0 / 3.0, .errs_both_ways = true, .difference_is_of_kernel = false};
     }

@@ -17,8 +17,8 @@ class DirectLightSampler;
 class PointMaker;
 struct SharedPoints;
 
-// Walks from the camera that read approximate fields on patches at the second diffuse surface, whose errors are carried by points that
-// all pixels share.
+// Walks from the camera that read approximate fields on patches at the second diffuse surface, whose errors are carried by points
+// that all pixels share.
 class CorrectedPaths : public PathMethod {
 public:
     explicit CorrectedPaths(std::shared_ptr<const Approximation> approximation) : approximation_(std::move(approximation)) {}

@@ -1,5 +1,5 @@
-// Samples the terms by Metropolis light transport (operators/paths/metropolis): chains for each bounce, for that is what a term is. A
-// replicate is a whole picture and has its own independent paths, from which its own chains start, so that replicates are
+// Samples the terms by Metropolis light transport (operators/paths/metropolis): chains for each bounce, for that is what a term is.
+// A replicate is a whole picture and has its own independent paths, from which its own chains start, so that replicates are
 // independent of each other. Bounce 0 is sampled by camera rays, and the rest by the independent paths.
 //
 // Mutation j of a replicate is one of each bounce's chains: path j % 64 of step (j / 64) % length of batch j / 64 / length. It

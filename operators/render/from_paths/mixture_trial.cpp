@@ -62,7 +62,8 @@ void MixtureTrial::go_on(std::uint32_t replicates, const Watch& watch) {
         replicates_ += 1.0;
     }
     rays_ += std::accumulate(tally.rays.begin(), tally.rays.end(), std::uint64_t{0});
-    if (!sampler_.paths().has_own_samples()) std::ranges::fill(rays_of_sample_, static_cast<double>(rays_) / (samples() * pixels()));
+    if (!sampler_.paths().has_own_samples())
+        std::ranges::fill(rays_of_sample_, static_cast<double>(rays_) / (samples() * pixels()));
 }
 
 Rgb MixtureTrial::variance(std::uint32_t pixel, std::size_t bounce) const {

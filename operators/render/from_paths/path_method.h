@@ -1,5 +1,5 @@
-// A way of sampling the terms by paths: its sampler, and whatever a render, its report and its health ask of it. A method is one class,
-// beside its sampler, and nobody else asks which one it is.
+// A way of sampling the terms by paths: its sampler, and whatever a render, its report and its health ask of it. A method is one
+// class, beside its sampler, and nobody else asks which one it is.
 #pragma once
 
 #include "core/base/warnings.h"
@@ -34,8 +34,8 @@ enum class Remedy {
 
 // Of a method that reads light near a point, within two radii, from whose difference its bias is estimated (picture_bias.h).
 struct TwoRadii {
-    double part_of_bias;           // the difference as a part of the bias
-    bool errs_both_ways;           // its bias is up here and down there, so that the difference is 0 in places where the bias is not
+    double part_of_bias;  // the difference as a part of the bias
+    bool errs_both_ways;  // its bias is up here and down there, so that the difference is 0 in places where the bias is not
     bool difference_is_of_kernel;  // the variance of the difference is half of the picture's; otherwise that of the terms
 };
 

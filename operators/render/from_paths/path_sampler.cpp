@@ -32,7 +32,9 @@ std::uint32_t PathSampler::of_read(std::uint32_t) const { throw std::logic_error
 void PathSampler::retrace_read(std::uint64_t, std::uint32_t, PathObserver&) const {
     throw std::logic_error("PathSampler: its paths read nothing");
 }
-std::unique_ptr<const PathsToInspect> PathSampler::to_inspect() const { return std::make_unique<const GroupsOfPixels>(*this, layout_); }
+std::unique_ptr<const PathsToInspect> PathSampler::to_inspect() const {
+    return std::make_unique<const GroupsOfPixels>(*this, layout_);
+}
 PathSampler::OfPart PathSampler::part_of(const SampleName&) const { throw std::logic_error("PathSampler: it has no parts"); }
 double PathSampler::scale(std::size_t, std::size_t, std::uint32_t) const { throw std::logic_error("PathSampler: it has no parts"); }
 double PathSampler::scale(std::size_t, std::size_t, const Vec2&) const { throw std::logic_error("PathSampler: it has no parts"); }

@@ -42,19 +42,19 @@ public:
     // What samples a pixel, where pixels share nothing. Null: a replicate is a whole picture.
     virtual const TermEstimator* of_pixels() const { return nullptr; }
 
-    // Adds a replicate's picture, all quantities of each pixel, black where a pixel has no samples. Returns false if `watch` stopped
-    // it.
+    // Adds a replicate's picture, all quantities of each pixel, black where a pixel has no samples. Returns false if `watch`
+    // stopped it.
     virtual bool sample_picture(std::uint64_t replicate, std::vector<Rgb>& picture, SampleRanges& ranges, Tally& tally,
                                 const Watch& watch) const = 0;
 
-    // The samples of all pixels without what paths from the lights bring to pixels all over the film. Returns the rays cast for what
-    // pixels share; nothing if `watch` stopped it. std::logic_error where all pixels share all paths.
+    // The samples of all pixels without what paths from the lights bring to pixels all over the film. Returns the rays cast for
+    // what pixels share; nothing if `watch` stopped it. std::logic_error where all pixels share all paths.
     virtual bool has_own_samples() const { return true; }
     virtual std::optional<std::uint64_t> own_samples(std::uint64_t replicate, const OwnSamples& each, const Watch& watch) const;
 
-    // Traces one group of paths again and reports it to `observer`; `first` is the first path of the group. Returns the samples, path
-    // by path with all quantities, with the same bits as in sample_picture(); the plan leaves nothing out. std::logic_error for a
-    // method without paths.
+    // Traces one group of paths again and reports it to `observer`; `first` is the first path of the group. Returns the samples,
+    // path by path with all quantities, with the same bits as in sample_picture(); the plan leaves nothing out. std::logic_error
+    // for a method without paths.
     virtual std::vector<Rgb> retrace(std::uint64_t replicate, std::uint32_t first, PathObserver& observer) const = 0;
     // Where a path reads what others left (path_observer.h): traces again the group with the path of that number, which has number
     // of_read() in the group.
@@ -71,8 +71,8 @@ public:
     };
     virtual std::size_t parts() const { return 0; }
     virtual OfPart part_of(const SampleName& name) const;
-    // What a sample of a part with value 1 adds to the mean of its pixel, or of that at a position on the film, times the samples of
-    // a pixel.
+    // What a sample of a part with value 1 adds to the mean of its pixel, or of that at a position on the film, times the samples
+    // of a pixel.
     virtual double scale(std::size_t part, std::size_t quantity, std::uint32_t pixel) const;
     virtual double scale(std::size_t part, std::size_t quantity, const Vec2& position) const;
 

@@ -25,8 +25,8 @@ public:
     bool is_prepared() const override { return true; }
     std::uint64_t rays() const override { return pilot_->rays; }
     double walks_worth(int, std::span<const double>) const override { return 16.0; }
-    // r and r/√2. Where light has edges the error is of order r, and the difference 1 − 1/√2 of it; where it is smooth, of order r²,
-    // and the difference a half. The former is taken.
+    // r and r/√2. Where light has edges the error is of order r, and the difference 1 − 1/√2 of it; where it is smooth, of order
+    // r², and the difference a half. The former is taken.
     std::optional<TwoRadii> two_radii() const override;
     bool is_bounded(const SamplingSettings&) const override { return false; }
     bool is_boundless(std::size_t quantity) const override { return quantity > 1; }

@@ -32,9 +32,7 @@ struct SamplingSettings {
     std::size_t pictures() const { return method->pictures(walk.bounces); }
     std::size_t quantities() const { return pictures() * (method->two_radii() ? 2 : 1); }
     // Whether points on lights share their weight with directions, so that none brings the more the nearer it is.
-    bool weighs_directions() const {
-        return walk.direct.direct == DirectLight::bsdf || walk.direct.direct == DirectLight::mis;
-    }
+    bool weighs_directions() const { return walk.direct.direct == DirectLight::bsdf || walk.direct.direct == DirectLight::mis; }
     // Of the crop's pixels in a replicate.
     SampleLayout layout(const Film& film) const {
         return {static_cast<std::uint32_t>(film.crop_width) * static_cast<std::uint32_t>(film.crop_height), replicate_size,

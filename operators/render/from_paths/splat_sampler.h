@@ -1,5 +1,6 @@
-// Light tracing, and bidirectional path tracing: paths from the lights may contribute to any pixel, so a replicate is a whole picture. A replicate has
-// as many paths as camera samples, and each is added to the pixels whose filter covers its position on the film.
+// Light tracing, and bidirectional path tracing: paths from the lights may contribute to any pixel, so a replicate is a whole
+// picture. A replicate has as many paths as camera samples, and each is added to the pixels whose filter covers its position on the
+// film.
 #pragma once
 
 #include "core/sampling/sampler.h"

@@ -8,9 +8,7 @@ std::shared_ptr<const PathSampler> SurfacePaths::sampler(const Scene& scene, con
     return walk_sampler(scene, settings, SurfaceContinuation(scene.geometry));
 }
 
-Paths SurfacePaths::paths(const Scene& scene) const {
-    return has_specular(scene.materials) ? Paths::without_specular : Paths::all;
-}
+Paths SurfacePaths::paths(const Scene& scene) const { return has_specular(scene.materials) ? Paths::without_specular : Paths::all; }
 
 void SurfacePaths::warn(const Scene& scene, Warnings& warnings) const {
     PathMethod::warn(scene, warnings);
@@ -18,7 +16,8 @@ void SurfacePaths::warn(const Scene& scene, Warnings& warnings) const {
         warnings.add(
             "--method surface makes no path by way of a mirror, of glass or of anything else that sends light in a single "
             "direction: what these reflect and let through is missing");
-    warnings.add("where surfaces meet at an angle, the variance of --method surface is infinite, even if the samples do not show it");
+    warnings.add(
+        "where surfaces meet at an angle, the variance of --method surface is infinite, even if the samples do not show it");
 }
 
 }  // namespace neumann

@@ -61,7 +61,7 @@ struct BounceSeries {
     Paths paths = Paths::all;
     std::vector<Checkpoint> convergence;
     Outcome outcome = Outcome::samples_reached;
-    std::uint64_t samples = 0;  // per pixel
+    std::uint64_t samples = 0;                // per pixel
     std::uint64_t rays = 0, shared_rays = 0;  // in all, and of these for points that all pixels share
     double seconds = 0.0;
     double setup_seconds = 0.0;  // part of `seconds`: the time before the first sample

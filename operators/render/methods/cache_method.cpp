@@ -8,8 +8,8 @@ CacheSettings Cache::settings() const {
 }
 
 std::shared_ptr<const PathMethod> Cache::prepare(const Preparing& in) const {
-    return std::make_shared<const CachePaths>(std::make_shared<const RecordPlaces>(in.scene, settings(), in.settings.sampler,
-                                                                                   in.settings.seed, in.memory, in.watch));
+    return std::make_shared<const CachePaths>(
+        std::make_shared<const RecordPlaces>(in.scene, settings(), in.settings.sampler, in.settings.seed, in.memory, in.watch));
 }
 
 void Cache::complete(const SamplingSettings& settings, const Film&) {

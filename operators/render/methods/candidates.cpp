@@ -40,8 +40,7 @@ std::vector<Candidate> candidates(const method::PathOptions& options, const Scen
 std::vector<Candidate> mixture_candidates(const method::PathOptions& options, const Scene& scene) {
     std::vector<Candidate> all = candidates(options, scene);
     if (scene.hide_emitters) return all;
-    if (LightPaths().paths(scene) == Paths::all && scene.camera.can_be_joined())
-        all.push_back({method::Light{options}, 1.2});
+    if (LightPaths().paths(scene) == Paths::all && scene.camera.can_be_joined()) all.push_back({method::Light{options}, 1.2});
     all.push_back({method::Metropolis{options}, 1.5});
     return all;
 }

@@ -11,8 +11,7 @@
 namespace neumann::method {
 
 std::shared_ptr<const PathMethod> Guided::prepare(const Preparing& in) const {
-    GuideSettings wanted{
-        .bounces = in.prepared.bounces(in.settings.walk.bounces), .seed = in.prepared.seed(), .memory = in.memory};
+    GuideSettings wanted{.bounces = in.prepared.bounces(in.settings.walk.bounces), .seed = in.prepared.seed(), .memory = in.memory};
     if (patches) wanted.patches = *patches;
     if (directions) {
         wanted.rays = *directions;

@@ -171,8 +171,8 @@ struct Metropolis : PathOptions {
     bool operator==(const Metropolis&) const = default;
 };
 
-// Walk, guided, corrected, bidirectional, light and metropolis together: each block of the picture and each bounce is a mean of their pictures,
-// weighted by their precision there, which a pilot tells (best_mixture.h).
+// Walk, guided, corrected, bidirectional, light and metropolis together: each block of the picture and each bounce is a mean of
+// their pictures, weighted by their precision there, which a pilot tells (best_mixture.h).
 struct Mixed : PathOptions {
     static constexpr const char* name = "mixed";
     std::optional<LeastError> adaptive = {};  // what it makes least; default: all
@@ -258,7 +258,11 @@ inline std::optional<LeastError> adaptive_of(const Method& method) {
 
 // Whether its pictures differ from the terms by an error that samples do not show, and estimate it.
 inline bool is_biased(const Method& method) {
-    return std::visit([]<class M>(const M&) { return HasFields<M> || requires { M::is_biased; }; }, method);
+    return std::visit(
+        []<class M>(const M&) {
+            return HasFields<M> || requires { M::is_biased; };
+        },
+        method);
 }
 
 }  // namespace neumann

@@ -1,5 +1,5 @@
-// What methods make ready before their first sample, once for a render: a pilot that tries a method leaves its tables or fields to the
-// render that follows.
+// What methods make ready before their first sample, once for a render: a pilot that tries a method leaves its tables or fields to
+// the render that follows.
 #pragma once
 
 #include "operators/render/from_paths/path_method.h"

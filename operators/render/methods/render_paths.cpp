@@ -27,8 +27,8 @@ namespace {
 // The time for sampling, in seconds, if the set-up has used up the limit.
 constexpr double shortest_sampling = 1e-3;
 
-// The time of a sample beside that of a walk: by its rays, or as measured, the largest in boxes and on a mesh of 10,000 triangles in a
-// room, of two processors.
+// The time of a sample beside that of a walk: by its rays, or as measured, the largest in boxes and on a mesh of 10,000 triangles
+// in a room, of two processors.
 double walks_worth(const SamplingSettings& settings, const RenderJob& job) {
     const int N = settings.walk.bounces;
     const std::span<const double> rays = job.pilot().rays();

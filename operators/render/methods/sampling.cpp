@@ -63,8 +63,8 @@ bool set_up(const Method& method, const Scene& scene, int bounces, double memory
     settings.walk.bounces = bounces;
     settings.method = plain_walks();
     settings.allocation = {};
-    // What can still be sampled where a mixture's pilots, or those that distribute samples, are stopped is walks, and as much in all
-    // pixels; the render tells so (as_it_ran() in render_paths.cpp).
+    // What can still be sampled where a mixture's pilots, or those that distribute samples, are stopped is walks, and as much in
+    // all pixels; the render tells so (as_it_ran() in render_paths.cpp).
     const bool may_do_without = std::holds_alternative<method::Mixed>(method);
     try {
         std::visit(

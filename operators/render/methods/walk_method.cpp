@@ -1,7 +1,7 @@
+#include "operators/render/from_paths/sampling_settings.h"
 #include "operators/render/from_paths/walk_paths.h"
 #include "operators/render/methods/ahead.h"
 #include "operators/render/methods/method.h"
-#include "operators/render/from_paths/sampling_settings.h"
 
 namespace neumann::method {
 

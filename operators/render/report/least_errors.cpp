@@ -170,8 +170,7 @@ private:
     // D if all samples of the pixel and its neighbours are 0. `unmet`: if all of the picture are.
     double difference_elsewhere(std::size_t pixel, std::size_t q, int c, double unmet) const {
         if (bounds_[q][c] == 0.0) return 0.0;
-        if (q == 0)
-            return lights_.pixels[pixel][c] > 0.0 && method_->is_boundless(q) ? infinity : lights_.pixels[pixel][c];
+        if (q == 0) return lights_.pixels[pixel][c] > 0.0 && method_->is_boundless(q) ? infinity : lights_.pixels[pixel][c];
         if (albedo_.pixels[pixel][c] == 0.0) return 0.0;
         return met_[c] > 0.0 ? met_[c] : unmet;
     }

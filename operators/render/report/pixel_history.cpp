@@ -72,9 +72,7 @@ std::vector<std::size_t> PixelHistory::largest(std::size_t most) const {
     return order;
 }
 
-std::string why_no_history(const PictureSampler& sampler) {
-    return sampler.settings().method->why_no_history();
-}
+std::string why_no_history(const PictureSampler& sampler) { return sampler.settings().method->why_no_history(); }
 
 PixelHistory history_of_pixel(std::span<const ReplicatesOf> replicates, std::uint32_t pixel) {
     PixelHistory history;
