@@ -1,7 +1,7 @@
 // Pixels with different numbers of samples: which numbers are best, how paths are then numbered, and that pictures keep their means
 // and their errors.
-#include "core/reader/read_scene.h"
 #include "operators/render/from_paths/allocation.h"
+#include "core/reader/read_scene.h"
 #include "operators/render/from_paths/picture_sampler.h"
 #include "operators/render/report/replay.h"
 #include "operators/statistics/student_t.h"
@@ -166,9 +166,11 @@ TEST(Allocation, CountsTheRaysOfWhatPixelsShare) {
     const PictureSampler sampler(scene, settings);
     std::atomic<std::uint64_t> own = 0;
     const std::optional<std::uint64_t> shared =
-        sampler.own_samples(0, [&](const PixelGroup&, std::span<const Rgb>, std::span<const std::uint64_t> rays) {
-            own += std::accumulate(rays.begin(), rays.end(), std::uint64_t{0});
-        });
+        sampler.paths().own_samples(0,
+                                    [&](const PixelGroup&, std::span<const Rgb>, std::span<const std::uint64_t> rays) {
+                                        own += std::accumulate(rays.begin(), rays.end(), std::uint64_t{0});
+                                    },
+                                    {});
     ASSERT_TRUE(shared);
     Tally tally(sampler.quantities());
     (void)sampler.run(0, 1, tally);

@@ -2,6 +2,7 @@
 #include "apps/output/files/series_files.h"
 #include "apps/output/files/shown_series.h"
 #include "core/image/in_file.h"
+#include "operators/render/from_paths/mixed_sampler.h"
 
 namespace neumann {
 

@@ -36,7 +36,7 @@ MixtureTrial::MixtureTrial(const Scene& view, const SamplingSettings& settings, 
         for (std::uint32_t pixel = group.begin; pixel < group.end; ++pixel)
             rays_of_sample_[pixel] = static_cast<double>(n) / group.paths();
     };
-    const std::optional<std::uint64_t> shared = sampler_.own_samples(0, count, watch);
+    const std::optional<std::uint64_t> shared = sampler_.paths().own_samples(0, count, watch);
     if (!shared) throw Stopped();
     rays_ = all + *shared;
 }
@@ -48,7 +48,7 @@ void MixtureTrial::go_on(std::uint32_t replicates, const Watch& watch) {
         std::vector<Rgb> picture(sums_.size(), Rgb(0.0));
         SampleRanges ranges;
         ranges.of.resize(picture.size());
-        if (!sampler_.sample_picture(static_cast<std::uint64_t>(replicates_), picture, ranges, tally, watch)) throw Stopped();
+        if (!sampler_.paths().sample_picture(static_cast<std::uint64_t>(replicates_), picture, ranges, tally, watch)) throw Stopped();
         std::vector<double> means(Q, 0.0);
         for (std::size_t i = 0; i < picture.size(); ++i) {
             sums_[i] += picture[i];

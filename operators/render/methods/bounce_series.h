@@ -11,6 +11,7 @@
 #include "operators/render/methods/ways.h"
 #include "operators/render/plan/plan.h"
 #include "operators/render/report/health.h"
+#include "operators/render/report/series_report.h"
 
 #include <functional>
 #include <memory>

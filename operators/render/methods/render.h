@@ -1,6 +1,7 @@
 // A render is a function of a scene, a method and a goal.
 #pragma once
 
+#include "operators/render/from_paths/pilot.h"
 #include "operators/render/methods/bounce_series.h"
 #include "operators/render/methods/goal.h"
 #include "operators/render/methods/saving.h"

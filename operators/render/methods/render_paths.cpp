@@ -10,6 +10,7 @@
 #include "operators/render/methods/render_job.h"
 #include "operators/render/methods/sampling.h"
 #include "operators/render/report/least_errors.h"
+#include "operators/render/report/missing_paths.h"
 
 #include <fmt/format.h>
 
