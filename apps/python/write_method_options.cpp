@@ -42,7 +42,7 @@ void print_option(const MethodOption& o, const char* value) {
 
 void print_class(const Method& method) {
     fmt::print("\n\n@dataclass(frozen=True, repr=False)\nclass {}(Method):\n    \"\"\"{}\"\"\"\n\n", class_of(name_of(method)),
-               method_help(name_of(method)));
+               help_of(method));
     fmt::print("    name: ClassVar[str] = \"{}\"\n", name_of(method));
     for (const MethodOption& o : method_options())
         if (o.belongs_to(method)) print_option(o, " = None");

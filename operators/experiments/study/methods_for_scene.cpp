@@ -12,9 +12,13 @@ std::optional<MethodsForScene> methods_for_scene(int bounces, std::uint64_t seed
                                                  const Watch& watch) {
     MethodsForScene found;
     for (const Method& method : all_methods()) {
-        const bool is_of_others = std::holds_alternative<method::Auto>(method) || std::holds_alternative<method::Mixed>(method);
-        if (is_of_others || std::holds_alternative<method::Classic>(method) || std::holds_alternative<method::Pointwise>(method))
-            continue;
+        const bool is_studied = std::visit(
+            []<class M>(const M&) {
+                if constexpr (MakesPaths<M>) return M::is_studied;
+                return true;
+            },
+            method);
+        if (!is_studied) continue;
         const StudyMethod studied{name_of(method), method};
         try {
             const Effort least = has_fields(method) ? field_effort(0) : sampling_effort(0);

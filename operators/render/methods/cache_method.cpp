@@ -1,7 +1,31 @@
 #include "operators/render/from_paths/cache_sampler.h"
 #include "operators/render/methods/method.h"
+#include "operators/render/methods/option_makers.h"
 
 namespace neumann::method {
+
+namespace {
+
+const Named<Spacing> spacings{{"hessian", Spacing::hessian}, {"split-sphere", Spacing::split_sphere}};
+
+}  // namespace
+
+std::vector<MethodOption> Cache::own_options() {
+    return {
+        choice(
+            "records", "HOW",
+            "For cache: what says how far apart records stand: hessian (the second derivatives of their irradiance, the default) "
+            "or "
+            "split-sphere (the distances of what they see)",
+            spacings, [](const Cache& m) { return m.records; }, [](Cache& m, Spacing s) { m.records = s; }),
+        option(
+            MethodOption::Kind::text, "accuracy", "A",
+            "For cache: the error allowed to records; with hessian relative, on average within the usual distance of records "
+            "(default 0.05); with split-sphere their reach as a part of the distance of what they see (default 0.25). A larger one "
+            "makes fewer records",
+            [](const Cache& m) { return m.accuracy; }, [](Cache& m, double a) { m.accuracy = a; }, read_length,
+            [](const std::optional<double>& a) { return a ? fmt::format("{}", *a) : ""; }, "a number above 0")};
+}
 
 CacheSettings Cache::settings() const {
     return {records, accuracy.value_or(default_accuracy(records)), directions.value_or(default_rays_of_record)};

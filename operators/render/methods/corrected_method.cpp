@@ -9,6 +9,23 @@
 
 namespace neumann::method {
 
+std::optional<FieldNeeds> Corrected::needs() const {
+    const ApproximationSettings defaults;
+    return FieldNeeds{patches.value_or(defaults.patches),
+                      2.0 * directions.value_or(defaults.rays) + CellDistribution::cells + FieldRaster::rays_of_facet};
+}
+
+std::vector<Corrected> Corrected::coarser() const {
+    constexpr std::size_t fewest_patches = 250;
+    std::vector<Corrected> all;
+    if (patches) return all;
+    for (std::size_t n = ApproximationSettings().patches / 2; n >= fewest_patches; n /= 2) {
+        all.push_back(*this);
+        all.back().patches = n;
+    }
+    return all;
+}
+
 std::shared_ptr<const PathMethod> Corrected::prepare(const Preparing& in) const {
     ApproximationSettings wanted{
         .bounces = in.prepared.bounces(in.settings.walk.bounces), .seed = in.prepared.seed(), .memory = in.memory};

@@ -15,10 +15,12 @@ constexpr int most_pixels = 192, bounces = 6;
 constexpr std::size_t most_shapes = 20'000;
 
 bool makes_all_paths(const Method& method) {
-    return std::holds_alternative<method::Auto>(method) || std::holds_alternative<method::Walk>(method) ||
-           std::holds_alternative<method::Guided>(method) || std::holds_alternative<method::Corrected>(method) ||
-           std::holds_alternative<method::Bidirectional>(method) || std::holds_alternative<method::Mixed>(method) ||
-           std::holds_alternative<method::Pointwise>(method);
+    return std::visit(
+        []<class M>(const M&) {
+            if constexpr (MakesPaths<M>) return M::makes_all_paths;
+            return false;
+        },
+        method);
 }
 
 }  // namespace

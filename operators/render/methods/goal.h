@@ -19,7 +19,7 @@ struct Goal {
     std::optional<int> bounces = {};            // N, the last one with a picture of its own
     std::optional<double> tail = {};            // instead of N: N is raised until the rest is below this part of the sum
     std::optional<std::uint64_t> samples = {};  // per pixel
-    std::optional<PartOfSamples> part = {};              // of the samples, which are then those of all parts; paths only
+    std::optional<PartOfSamples> part = {};     // of the samples, which are then those of all parts; paths only
     // The number of independent replicates from which standard errors are estimated. Each takes the same power of two of samples
     // per pixel. The default depends on the samples.
     std::optional<std::uint32_t> replicates = {};

@@ -10,6 +10,28 @@
 
 namespace neumann::method {
 
+std::optional<Decisions> Guided::leaves_out() const {
+    return Decisions{&LeftOut::rays_from_surfaces, &LeftOut::rays_for_light, &LeftOut::shadow_rays_in_room, &LeftOut::questions};
+}
+
+std::optional<FieldNeeds> Guided::needs() const {
+    const GuideSettings defaults;
+    return FieldNeeds{
+        patches.value_or(defaults.patches),
+        static_cast<double>(defaults.field_rays) + TracedSeriesSettings{}.light_samples + directions.value_or(defaults.rays)};
+}
+
+// Fewer rays of the tables, down to one in a cell.
+std::vector<Guided> Guided::coarser() const {
+    std::vector<Guided> all;
+    if (directions) return all;
+    for (std::uint32_t rays = GuideSettings().rays / 2; rays >= CellDistribution::cells; rays /= 2) {
+        all.push_back(*this);
+        all.back().directions = rays;
+    }
+    return all;
+}
+
 std::shared_ptr<const PathMethod> Guided::prepare(const Preparing& in) const {
     GuideSettings wanted{.bounces = in.prepared.bounces(in.settings.walk.bounces), .seed = in.prepared.seed(), .memory = in.memory};
     if (patches) wanted.patches = *patches;

@@ -3,6 +3,7 @@
 
 #include "core/scene/scene.h"
 #include "operators/paths/cache/cache_settings.h"
+#include "operators/paths/walk/left_out.h"
 #include "operators/paths/walk/tree_ratios.h"
 #include "operators/paths/walk/walk_settings.h"
 #include "operators/render/from_paths/allocation.h"
@@ -12,11 +13,13 @@
 #include <memory>
 #include <optional>
 #include <variant>
+#include <vector>
 
 namespace neumann {
 
 class PathMethod;
 class Prepared;
+struct MethodOption;
 struct SamplingSettings;
 struct Watch;
 
@@ -36,22 +39,49 @@ enum class LeavingOut {
     nothing
 };
 
-// Options of all methods that sample paths. Each has prepare(), which makes its tables, fields, photons and whatever else it needs
-// before its first sample, and returns how it samples; it throws InputError, and Stopped if `watch` stops it.
+// Fields or tables on patches that a method makes ready, of which the time is foretold (preparation.h).
+struct FieldNeeds {
+    std::size_t patches;
+    double rays_of_facet;
+};
+
+// The decisions of a plan that a method acts on.
+using Decisions = std::vector<bool LeftOut::*>;
+
+// Options of all methods that sample paths, and what is asked of each: one that differs has a member of the same name. Each has
+// `name` and `help`, and prepare(), which makes its tables, fields, photons and whatever else it needs before its first sample, and
+// returns how it samples; it throws InputError, and Stopped if `watch` stops it. Options that no other method has are in
+// own_options().
 struct PathOptions {
     std::optional<SamplerKind> sampler = {};  // default: the scene's sampler, or Sobol' points if the scene names none
     LeavingOut plan = LeavingOut::by_plan;
 
-    // Throws InputError if the method cannot render the scene.
+    // Throw InputError if options exclude each other (`lights`: whether --lights was given), if the method cannot render the scene,
+    // and if replicates of so many samples a pixel are too small for it.
+    void expect_sense(bool /*lights*/) const {}
     void expect(const Scene&) const {}
+    void expect_room(const Film&, std::uint32_t /*replicate_size*/) const {}
     // Sets the options that had been left open, as they were taken.
     void complete(const SamplingSettings&, const Film&) {}
+
+    // Nothing: it leaves nothing out.
+    std::optional<Decisions> leaves_out() const { return std::nullopt; }
+    std::optional<FieldNeeds> needs() const { return std::nullopt; }
+    static constexpr bool makes_all_paths = false;  // in every scene, so that pictures by fields show what it will make
+    static constexpr bool is_studied = true;        // by a study that names no methods
+    static constexpr const char* why_no_replay = "";
     bool operator==(const PathOptions&) const = default;
 };
 
 // The method of these that promises least error for its cost in the scene (choose_method.h).
 struct Auto : PathOptions {
     static constexpr const char* name = "auto";
+    static constexpr const char* help =
+        "of walk, guided, corrected and bidirectional the one that promises least error in this scene, by a short pilot, the "
+        "default "
+        "(walk, if an option is given that auto does not have, or the render is small)";
+    static constexpr bool makes_all_paths = true;
+    static constexpr bool is_studied = false;
     std::optional<LeastError> adaptive = {};  // as of the walk; default: all, if a pilot for it pays
     bool bias_allowed = false;                // if it may be one of those with a bias, which they state
     bool operator==(const Auto&) const = default;
@@ -60,6 +90,8 @@ struct Auto : PathOptions {
 // Path tracing: walks from the camera sample directions by the BSDF. One walk gives a sample of every bounce.
 struct Walk : PathOptions {
     static constexpr const char* name = "walk";
+    static constexpr const char* help = "one walk from the camera for all bounces";
+    static constexpr bool makes_all_paths = true;
     DirectLightSettings direct = {};
     Roulette roulette = {};
     Split split = {};
@@ -67,18 +99,27 @@ struct Walk : PathOptions {
     bool reuse = false;                       // walks of neighbouring pixels use each other's tails
     std::optional<TreeGoal> tree = {};        // if the walk splits and ends by the best numbers for its depths: for what
 
+    void expect_sense(bool lights) const;
+    std::optional<Decisions> leaves_out() const;
     std::shared_ptr<const PathMethod> prepare(const Preparing& preparing) const;
+    static std::vector<MethodOption> own_options();
     bool operator==(const Walk&) const = default;
 };
 
 // Path tracing whose diffuse reflections sample tables of the incident light (path guiding).
 struct Guided : PathOptions {
     static constexpr const char* name = "guided";
+    static constexpr const char* help = "walks with directions sampled from a matrix solution";
+    static constexpr bool makes_all_paths = true;
     std::optional<std::size_t> patches = {};
     std::optional<std::uint32_t> directions = {};
     std::optional<LeastError> adaptive = {};  // as of the walk
 
+    std::optional<Decisions> leaves_out() const;
+    std::optional<FieldNeeds> needs() const;
     std::shared_ptr<const PathMethod> prepare(const Preparing& preparing) const;
+    // The same, less and less fine, with what was left open.
+    std::vector<Guided> coarser() const;
     void complete(const SamplingSettings& settings, const Film& film);
     bool operator==(const Guided&) const = default;
 };
@@ -87,11 +128,15 @@ struct Guided : PathOptions {
 // fields are carried by points that all pixels share.
 struct Corrected : PathOptions {
     static constexpr const char* name = "corrected";
+    static constexpr const char* help = "walks that read approximate fields on patches and remove their errors";
+    static constexpr bool makes_all_paths = true;
     std::optional<std::size_t> patches = {};
     std::optional<std::uint32_t> directions = {};
     std::optional<LeastError> adaptive = {};  // as of the walk
 
+    std::optional<FieldNeeds> needs() const;
     std::shared_ptr<const PathMethod> prepare(const Preparing& preparing) const;
+    std::vector<Corrected> coarser() const;  // as above
     void complete(const SamplingSettings& settings, const Film& film);
     bool operator==(const Corrected&) const = default;
 };
@@ -99,8 +144,10 @@ struct Corrected : PathOptions {
 // Walks from the camera that choose the next vertex uniformly by area on all surfaces.
 struct Surface : PathOptions {
     static constexpr const char* name = "surface";
+    static constexpr const char* help = "walks with points sampled on all surfaces";
     static constexpr DirectLight direct_light = DirectLight::light;
 
+    std::optional<Decisions> leaves_out() const;
     std::shared_ptr<const PathMethod> prepare(const Preparing& preparing) const;
     bool operator==(const Surface&) const = default;
 };
@@ -108,6 +155,7 @@ struct Surface : PathOptions {
 // Light tracing: walks from the lights, joined to the camera.
 struct Light : PathOptions {
     static constexpr const char* name = "light";
+    static constexpr const char* help = "walks from the lights to the camera";
     Roulette roulette = {};
 
     void expect(const Scene& scene) const;
@@ -118,6 +166,8 @@ struct Light : PathOptions {
 // Bidirectional path tracing: subpaths from both ends, joined at every pair of vertices.
 struct Bidirectional : PathOptions {
     static constexpr const char* name = "bidirectional";
+    static constexpr const char* help = "walks from both ends, joined everywhere";
+    static constexpr bool makes_all_paths = true;
     DirectLightSettings direct = {};  // must be multiple importance sampling: it both samples lights and hits them
     Roulette roulette = {};
     Split split = {};
@@ -125,7 +175,9 @@ struct Bidirectional : PathOptions {
     std::optional<int> ways = {};             // show every way (s, t) to make this bounce (ways.h)
 
     void expect(const Scene& scene) const;
+    void expect_sense(bool lights) const;
     std::shared_ptr<const PathMethod> prepare(const Preparing& preparing) const;
+    static std::vector<MethodOption> own_options();
     bool operator==(const Bidirectional&) const = default;
 };
 
@@ -133,12 +185,14 @@ struct Bidirectional : PathOptions {
 // nearby.
 struct Photon : PathOptions {
     static constexpr const char* name = "photon";
+    static constexpr const char* help = "photon maps, for caustics, with a bias that falls";
     std::optional<std::uint32_t> photons = {};  // paths from the lights in each pass
     std::optional<double> radius = {};          // in the first pass; by a pilot if it is not given
     bool gather = false;                        // one more reflection is sampled before a map is read
     static constexpr bool is_biased = true;
 
     std::shared_ptr<const PathMethod> prepare(const Preparing& preparing) const;
+    static std::vector<MethodOption> own_options();
     void complete(const SamplingSettings& settings, const Film& film);
     bool operator==(const Photon&) const = default;
 };
@@ -147,6 +201,7 @@ struct Photon : PathOptions {
 // from the camera read it nearby.
 struct Cache : PathOptions {
     static constexpr const char* name = "cache";
+    static constexpr const char* help = "an irradiance cache, for diffuse rooms, with a bias that stays";
     Spacing records = Spacing::hessian;            // what says where records stand
     std::optional<double> accuracy = {};           // the error allowed to records (cache_settings.h)
     std::optional<std::uint32_t> directions = {};  // rays of a record in each pass
@@ -156,6 +211,7 @@ struct Cache : PathOptions {
     CacheSettings settings() const;
 
     std::shared_ptr<const PathMethod> prepare(const Preparing& preparing) const;
+    static std::vector<MethodOption> own_options();
     void complete(const SamplingSettings& settings, const Film& film);
     bool operator==(const Cache&) const = default;
 };
@@ -163,10 +219,13 @@ struct Cache : PathOptions {
 // Multiplexed Metropolis light transport: for each bounce, Markov chains among the paths of the bidirectional method.
 struct Metropolis : PathOptions {
     static constexpr const char* name = "metropolis";
+    static constexpr const char* help = "chains of paths that mutate, for light that is hard to find";
     std::optional<std::uint32_t> chain = {};  // states of each chain in a replicate
 
     void expect(const Scene& scene) const;
+    void expect_room(const Film& film, std::uint32_t replicate_size) const;
     std::shared_ptr<const PathMethod> prepare(const Preparing& preparing) const;
+    static std::vector<MethodOption> own_options();
     void complete(const SamplingSettings& settings, const Film& film);
     bool operator==(const Metropolis&) const = default;
 };
@@ -175,6 +234,10 @@ struct Metropolis : PathOptions {
 // their pictures, weighted by their precision there, which a pilot tells (best_mixture.h).
 struct Mixed : PathOptions {
     static constexpr const char* name = "mixed";
+    static constexpr const char* help =
+        "walk, guided, corrected, bidirectional, light and metropolis, each for the blocks and the bounces where it is best";
+    static constexpr bool makes_all_paths = true;
+    static constexpr bool is_studied = false;
     std::optional<LeastError> adaptive = {};  // what it makes least; default: all
 
     std::shared_ptr<const PathMethod> prepare(const Preparing& preparing) const;
@@ -184,8 +247,11 @@ struct Mixed : PathOptions {
 // Classic ray tracing (Whitted): walks go on through mirrors and glass alone.
 struct Classic : PathOptions {
     static constexpr const char* name = "classic";
+    static constexpr const char* help = "mirrors and glass alone, which leaves out other paths";
+    static constexpr bool is_studied = false;
     static constexpr DirectLight direct_light = DirectLight::light;
 
+    std::optional<Decisions> leaves_out() const;
     std::shared_ptr<const PathMethod> prepare(const Preparing& preparing) const;
     bool operator==(const Classic&) const = default;
 };
@@ -193,6 +259,10 @@ struct Classic : PathOptions {
 // Each bounce is sampled by walks of its own.
 struct Pointwise : PathOptions {
     static constexpr const char* name = "pointwise";
+    static constexpr const char* help = "each bounce by itself, slow and plain";
+    static constexpr bool makes_all_paths = true;
+    static constexpr bool is_studied = false;
+    static constexpr const char* why_no_replay = "each of its bounces is asked for anew";
 
     void expect(const Scene& scene) const;
     std::shared_ptr<const PathMethod> prepare(const Preparing& preparing) const;
@@ -209,18 +279,21 @@ struct FieldOptions {
 // The series is computed with T and R on patches, and the field is interpolated at the pixel.
 struct Matrix : FieldOptions {
     static constexpr const char* name = "matrix";
+    static constexpr const char* help = "T and R on patches, fast";
     bool operator==(const Matrix&) const = default;
 };
 
 // As Matrix, with K applied once more at the pixel (final gathering).
 struct Gather : FieldOptions {
     static constexpr const char* name = "gather";
+    static constexpr const char* help = "T and R on patches, with K applied once more at the pixel";
     bool operator==(const Gather&) const = default;
 };
 
 // The piecewise constant field on the patches is shown as it is.
 struct Patches : FieldOptions {
     static constexpr const char* name = "patches";
+    static constexpr const char* help = "the patches as they are";
     bool importance = false;  // show K*^i We in place of K^i Le
     bool operator==(const Patches&) const = default;
 };

@@ -2,12 +2,11 @@
 
 #include "core/base/error.h"
 #include "operators/render/methods/method_table.h"
-#include "operators/render/methods/named_values.h"
+#include "operators/render/methods/option_makers.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 namespace neumann {
@@ -35,27 +34,13 @@ const Named<Strategy> strategies{{"hemisphere", {DirectLight::hemisphere}},
                                  {"mis-solid-angle", {.place = LightPlace::solid_angle}},
                                  {"mis-projected", {.place = LightPlace::projected}}};
 Strategy strategy(const DirectLightSettings& direct) { return {direct.direct, direct.place, direct.heuristic}; }
-bool asks_lights(const DirectLightSettings& s) { return s.direct == DirectLight::light || s.direct == DirectLight::mis; }
 
 const Named<LightChoice> light_choices{{"mixed", LightChoice::mixed}, {"uniform", LightChoice::uniform},
                                        {"power", LightChoice::power}, {"contribution", LightChoice::contribution},
                                        {"tree", LightChoice::tree},   {"all", LightChoice::all}};
 const Named<SamplerKind> samplers{{"sobol", SamplerKind::sobol}, {"independent", SamplerKind::independent}};
-const Named<Spacing> spacings{{"hessian", Spacing::hessian}, {"split-sphere", Spacing::split_sphere}};
 const Named<LeastError> least_errors{{"bounces", LeastError::of_bounces}, {"sum", LeastError::of_sum}, {"all", LeastError::of_all}};
 const Named<method::LeavingOut> plans{{"auto", method::LeavingOut::by_plan}, {"full", method::LeavingOut::nothing}};
-
-template <class Number>
-std::optional<Number> number(const std::string& text) {
-    Number value{};
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    return error == std::errc() && end == text.data() + text.size() ? std::optional(value) : std::nullopt;
-}
-
-std::optional<double> read_length(const std::string& text) {
-    const auto length = number<double>(text);
-    return length && *length > 0.0 && std::isfinite(*length) ? length : std::nullopt;
-}
 
 std::optional<Roulette> read_roulette(const std::string& text) {
     if (text == "none") return Roulette{};
@@ -80,17 +65,6 @@ std::string print_roulette(const Roulette& roulette) {
     return "";
 }
 
-std::optional<TreeGoal> read_tree(const std::string& text) {
-    if (text == "sum") return std::make_optional<TreeGoal>();
-    const auto bounce = number<int>(text);
-    return bounce && *bounce >= 1 && *bounce <= most_depths_of_tree ? std::optional(TreeGoal{*bounce}) : std::nullopt;
-}
-
-std::string print_tree(const std::optional<TreeGoal>& tree) {
-    if (!tree) return "";
-    return tree->bounce ? fmt::format("{}", *tree->bounce) : "sum";
-}
-
 std::optional<Split> read_split(const std::string& text) {
     constexpr int most = 4096;
     const std::size_t comma = text.find(',');
@@ -100,72 +74,7 @@ std::optional<Split> read_split(const std::string& text) {
     return in_range(lights) && in_range(walks) ? std::optional(Split{*lights, *walks}) : std::nullopt;
 }
 
-// Makes an option. `get` reads its value from a method; a method has the option if it can be passed to `get`. `set` writes the
-// value. `read` parses a text and returns nothing if the text is wrong.
-template <class Get, class Set, class Read, class Print>
-MethodOption option(Kind kind, std::string name, std::string type, std::string help, Get get, Set set, Read read, Print print,
-                    std::string expected) {
-    MethodOption o;
-    o.kind = kind;
-    o.name = std::move(name);
-    o.type = std::move(type);
-    o.help = std::move(help);
-    o.wrong = [=](const std::string& text) { return read(text) ? "" : fmt::format("'{}' is not {}", text, expected); };
-    o.belongs_to = [](const Method& method) {
-        return std::visit([]<class M>(const M&) { return std::is_invocable_v<Get, const M&>; }, method);
-    };
-    o.read = [=](Method& method, const std::string& text) {
-        std::visit(
-            [&]<class M>(M& m) {
-                if constexpr (std::is_invocable_v<Get, const M&>) set(m, *read(text));
-            },
-            method);
-    };
-    o.text = [=](const Method& method) {
-        return std::visit(
-            [&]<class M>(const M& m) -> std::string {
-                if constexpr (std::is_invocable_v<Get, const M&>)
-                    return print(get(m));
-                else
-                    return "";
-            },
-            method);
-    };
-    return o;
-}
-
-template <class Value, class Get, class Set>
-MethodOption choice(std::string option_name, std::string type, std::string help, const Named<Value>& all, Get get, Set set) {
-    MethodOption o = option(
-        Kind::text, std::move(option_name), std::move(type), std::move(help), get, set,
-        [&all](const std::string& text) { return value(all, text); },
-        [&all](const std::optional<Value>& v) { return v ? name(all, *v) : ""; }, "");
-    o.wrong = [&all](const std::string& text) { return value(all, text) ? "" : not_in(text, names(all)); };
-    o.words = names(all);
-    return o;
-}
-
-template <class Get, class Set>
-MethodOption flag(std::string name, std::string help, Get get, Set set) {
-    return option(
-        Kind::flag, std::move(name), "", std::move(help), get, set,
-        [](const std::string& text) { return text == "true" || text == "false" ? std::optional(text == "true") : std::nullopt; },
-        [](bool on) { return on ? "true" : ""; }, "true or false");
-}
-
-template <class Number, class Get, class Set>
-MethodOption whole(std::string name, std::string type, std::string help, std::uint64_t low, std::uint64_t high, Get get, Set set) {
-    return option(
-        Kind::number, std::move(name), std::move(type), std::move(help), get, set,
-        [=](const std::string& text) -> std::optional<Number> {
-            const auto n = number<std::uint64_t>(text);
-            return n && *n >= low && *n <= high ? std::optional(static_cast<Number>(*n)) : std::nullopt;
-        },
-        [](const std::optional<Number>& n) { return n ? fmt::format("{}", *n) : std::string(); },
-        fmt::format("a whole number from {} to {}", low, high));
-}
-
-std::vector<MethodOption> make_options() {
+std::vector<MethodOption> shared_options() {
     return {
         choice(
             "direct", "HOW",
@@ -204,17 +113,6 @@ std::vector<MethodOption> make_options() {
             "scene's",
             samplers, [](const auto& m) requires requires { m.sampler; } { return m.sampler; },
             [](auto& m, SamplerKind s) { m.sampler = s; }),
-        option(
-            Kind::text, "tree", "WHAT",
-            "For walk: split walks, and end them by Russian roulette, by the numbers of samples at each depth that a pilot finds "
-            "best for the sum of all bounces (sum) or for one bounce (its number)",
-            [](const auto& m) requires requires { m.tree; } { return m.tree; }, [](auto& m, const TreeGoal& t) { m.tree = t; },
-            read_tree, print_tree, fmt::format("sum or a bounce from 1 to {}", most_depths_of_tree)),
-        flag(
-            "reuse",
-            "For walk: let the walks of eight pixels in a row use each other's tails, from the second surface on where both are "
-            "diffuse",
-            [](const auto& m) requires requires { m.reuse; } { return m.reuse; }, [](auto& m, bool on) { m.reuse = on; }),
         choice(
             "adaptive", "WHAT",
             "For auto, walk, guided, corrected, bidirectional and mixed: more samples for the pixels that need them, by a pilot, "
@@ -243,43 +141,6 @@ std::vector<MethodOption> make_options() {
             "For guided, corrected, patches, matrix and gather: the number of rays of a patch; for cache: of a record, in a pass",
             1, 1u << 20, [](const auto& m) requires requires { m.directions; } { return m.directions; },
             [](auto& m, std::uint32_t n) { m.directions = n; }),
-        whole<std::uint32_t>(
-            "photons", "N", "For photon: the number of paths from the lights in a pass (a replicate)", 1, 1u << 28,
-            [](const auto& m) requires requires { m.photons; } { return m.photons; },
-            [](auto& m, std::uint32_t n) { m.photons = n; }),
-        option(
-            Kind::text, "radius", "R",
-            "For photon: the radius within which photons are read in the first pass, in the scene's units; smaller in later ones; "
-            "default by "
-            "a pilot",
-            [](const auto& m) requires requires { m.radius; } { return m.radius; }, [](auto& m, double r) { m.radius = r; },
-            read_length, [](const std::optional<double>& r) { return r ? fmt::format("{}", *r) : ""; }, "a length above 0"),
-        flag(
-            "gather", "For photon: sample one more reflection before the map is read (final gathering)",
-            [](const auto& m) requires requires { m.gather; } { return m.gather; }, [](auto& m, bool on) { m.gather = on; }),
-        choice(
-            "records", "HOW",
-            "For cache: what says how far apart records stand: hessian (the second derivatives of their irradiance, the default) "
-            "or "
-            "split-sphere (the distances of what they see)",
-            spacings, [](const auto& m) requires requires { m.records; } { return m.records; },
-            [](auto& m, Spacing s) { m.records = s; }),
-        option(
-            Kind::text, "accuracy", "A",
-            "For cache: the error allowed to records; with hessian relative, on average within the usual distance of records "
-            "(default 0.05); with split-sphere their reach as a part of the distance of what they see (default 0.25). A larger one "
-            "makes fewer records",
-            [](const auto& m) requires requires { m.accuracy; } { return m.accuracy; }, [](auto& m, double a) { m.accuracy = a; },
-            read_length, [](const std::optional<double>& a) { return a ? fmt::format("{}", *a) : ""; }, "a number above 0"),
-        whole<std::uint32_t>(
-            "chain", "N", "For metropolis: the states of each chain in a replicate (default 512, fewer in small pictures)", 1,
-            1u << 20, [](const auto& m) requires requires { m.chain; } { return m.chain; },
-            [](auto& m, std::uint32_t n) { m.chain = n; }),
-        whole<int>(
-            "ways", "BOUNCE",
-            "For bidirectional: write pictures of every way (s, t) to make this bounce, s vertices from the light and t from the "
-            "camera, with and without its weight",
-            1, 1000, [](const auto& m) requires requires { m.ways; } { return m.ways; }, [](auto& m, int n) { m.ways = n; }),
         flag(
             "importance",
             "For patches: show the importance K*^i We in place of K^i Le: by how much the mean of the picture of bounce i grows "
@@ -289,37 +150,34 @@ std::vector<MethodOption> make_options() {
             [](auto& m, bool on) { m.importance = on; })};
 }
 
-void expect_sense(const method::Walk& walk, bool lights) {
-    if (lights && !asks_lights(walk.direct))
-        throw InputError(fmt::format("--lights chooses among lights, and --direct {} asks none; take light, solid-angle or mis",
-                                     name(strategies, strategy(walk.direct))));
-    if (walk.tree && (walk.split != Split{} || walk.roulette != Roulette{}))
-        throw InputError("--tree chooses what --split and --roulette say; take it alone");
-    if (walk.reuse && (walk.tree || walk.adaptive || walk.split != Split{}))
-        throw InputError("--reuse needs one walk of each pixel; take it without --tree, --adaptive and --split");
+template <class M>
+void add_own(std::vector<MethodOption>& all) {
+    if constexpr (requires { M::own_options(); })
+        for (MethodOption& own : M::own_options()) all.push_back(std::move(own));
 }
-void expect_sense(const method::Bidirectional& both, bool) {
-    if (both.direct.direct != DirectLight::mis || both.direct.place == LightPlace::projected)
-        throw InputError(
-            fmt::format("--method bidirectional both asks for lights and hits them; take --direct mis, mis-balance or "
-                        "mis-solid-angle, not {}",
-                        name(strategies, strategy(both.direct))));
-    if (both.direct.lights == LightChoice::all)
-        throw InputError("--method bidirectional asks one light at a time; --lights all belongs to --method walk");
-}
-void expect_sense(const auto&, bool) {}
 
 }  // namespace
 
 std::span<const MethodOption> method_options() {
-    static const std::vector<MethodOption> all = make_options();
+    static const std::vector<MethodOption> all = [] {
+        std::vector<MethodOption> options = shared_options();
+        for (const Method& method : all_methods()) std::visit([&]<class M>(const M&) { add_own<M>(options); }, method);
+        return options;
+    }();
     return all;
 }
 
+bool asks_lights(const DirectLightSettings& direct) {
+    return direct.direct == DirectLight::light || direct.direct == DirectLight::mis;
+}
 std::string name_of(const DirectLightSettings& direct) { return name(strategies, strategy(direct)); }
 
 void expect_sense(const Method& method, bool lights) {
-    std::visit([&](const auto& m) { expect_sense(m, lights); }, method);
+    std::visit(
+        [&](const auto& m) {
+            if constexpr (requires { m.expect_sense(lights); }) m.expect_sense(lights);
+        },
+        method);
 }
 
 }  // namespace neumann

@@ -32,7 +32,7 @@ std::vector<std::string> method_names();
 // What is wrong with the name of a method, and what may be meant; "" if it is one.
 std::string wrong_method(const std::string& name);
 // Help text: a method in a few words, and all of them.
-std::string method_help(const std::string& name);
+const char* help_of(const Method& method);
 const std::string& method_help();
 
 // A method as text: its name, and the options that are given.
@@ -44,8 +44,9 @@ struct MethodText {
 Method make_method(const MethodText& text);
 // The same in one word: "walk:direct=bsdf:lights=power".
 Method read_method(const std::string& word);
-// The value of --direct that gives these settings.
+// The value of --direct that gives these settings, and whether lights are chosen by it.
 std::string name_of(const DirectLightSettings& direct);
+bool asks_lights(const DirectLightSettings& direct);
 // The inverse of make_method(): all options that are not left open.
 MethodText text_of(const Method& method);
 // As text_of(), with only those options that differ from their defaults.

@@ -10,33 +10,22 @@ namespace neumann {
 
 namespace {
 
-using Decisions = std::vector<bool LeftOut::*>;
-
-// The decisions of the plan that a method can act on; nullopt if the method supports no plan.
-std::optional<Decisions> decisions(const method::Walk& walk) {
-    if (walk.tree || walk.reuse) return std::nullopt;
-    const DirectLight direct = walk.direct.direct;
-    Decisions taken{&LeftOut::rays_from_surfaces, &LeftOut::rays_for_light};
-    if (direct != DirectLight::hemisphere && direct != DirectLight::cosine) taken.push_back(&LeftOut::shadow_rays_in_room);
-    if (direct == DirectLight::mis) taken.push_back(&LeftOut::questions);
-    return taken;
-}
-std::optional<Decisions> decisions(const method::Guided&) {
-    return Decisions{&LeftOut::rays_from_surfaces, &LeftOut::rays_for_light, &LeftOut::shadow_rays_in_room, &LeftOut::questions};
-}
+// The decisions that a method acts on; nothing if it leaves nothing out. Fields take all that is no decision of walks.
 template <class M>
-requires std::same_as<M, method::Surface> || std::same_as<M, method::Classic> std::optional<Decisions> decisions(const M&) {
-    return Decisions{&LeftOut::rays_from_surfaces, &LeftOut::rays_for_light, &LeftOut::shadow_rays_in_room};
+std::optional<method::Decisions> decisions(const M& m) {
+    if constexpr (MakesPaths<M>)
+        return m.plan == method::LeavingOut::nothing ? std::nullopt : m.leaves_out();
+    else
+        return method::Decisions{};
 }
-template <HasFields M>
-std::optional<Decisions> decisions(const M&) {
-    return Decisions{};
-}
-std::optional<Decisions> decisions(const method::PathOptions&) { return std::nullopt; }
 
 bool asks_roulette(const Method& method) {
-    const auto* walk = std::get_if<method::Walk>(&method);
-    return walk && walk->roulette.kind != Roulette::Kind::none;
+    return std::visit(
+        [](const auto& m) {
+            if constexpr (requires { m.roulette; }) return m.roulette.kind != Roulette::Kind::none;
+            return false;
+        },
+        method);
 }
 
 PlanPart late_bounces(const Scene& scene) {
@@ -53,16 +42,10 @@ PlanPart late_bounces(const Scene& scene) {
             "pictures of these: their sum is measured as the rest"};
 }
 
-template <class M>
-bool takes_all(const M& m) {
-    if constexpr (MakesPaths<M>) return m.plan == method::LeavingOut::nothing;
-    return false;
-}
-
 }  // namespace
 
 Plan plan_for(const Method& method, const Scene& scene) {
-    const auto taken = std::visit([](const auto& m) { return takes_all(m) ? std::nullopt : decisions(m); }, method);
+    const auto taken = std::visit([](const auto& m) { return decisions(m); }, method);
     if (!taken) return {};
     Plan plan = make_plan(scene);
     std::erase_if(plan.parts, [&](const PlanPart& p) {

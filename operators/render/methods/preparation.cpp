@@ -2,8 +2,6 @@
 
 #include "core/base/error.h"
 #include "operators/fields/patches/shape_areas.h"
-#include "operators/paths/corrected/approximation.h"
-#include "operators/paths/guided/guide.h"
 #include "operators/render/from_fields/field_goal.h"
 
 #include <fmt/format.h>
@@ -18,9 +16,6 @@ namespace {
 // A scene of boxes and a limit of a second are no reason to do without.
 constexpr double part_of_time = 1.0 / 3.0, short_preparation = 0.5;
 double longest_preparation(double seconds) { return std::max(part_of_time * seconds, short_preparation); }
-// The rays of a guide's tables can be fewer, down to one in a cell, and so can the patches of `corrected`.
-constexpr std::uint32_t fewest_of_table = CellDistribution::cells;
-constexpr std::size_t fewest_patches = 250;
 
 // A ray for fields or tables takes less than one of the pilot's walks: it has no shading, begins where others do, and asks nothing
 // about what is near. A face is joined to its neighbours. Measured with 1000 patches (tests/bench/bench_mesh.py), foretold in
@@ -38,20 +33,14 @@ double facets_of(const Shapes& shapes, double patches, double least = 1.0) {
 }
 
 struct Needs {
-    double facets, rays;
+    double facets = 0.0, rays = 0.0;
 };
-Needs needs_of(const method::Guided& guided, const Shapes& shapes) {
-    const GuideSettings defaults;
-    const double each = defaults.field_rays + TracedSeriesSettings{}.light_samples + guided.directions.value_or(defaults.rays);
-    const double facets = facets_of(shapes, static_cast<double>(guided.patches.value_or(defaults.patches)));
-    return {facets, each * facets};
-}
-Needs needs_of(const method::Corrected& corrected, const Shapes& shapes) {
-    const ApproximationSettings defaults;
-    const double rays = corrected.directions.value_or(defaults.rays),
-                 each = 2.0 * rays + CellDistribution::cells + FieldRaster::rays_of_facet;
-    const double facets = facets_of(shapes, static_cast<double>(corrected.patches.value_or(defaults.patches)));
-    return {facets, each * facets};
+template <MakesPaths M>
+Needs needs_of(const M& m, const Shapes& shapes) {
+    const std::optional<method::FieldNeeds> needs = m.needs();
+    if (!needs) return {};
+    const double facets = facets_of(shapes, static_cast<double>(needs->patches));
+    return {facets, needs->rays_of_facet * facets};
 }
 template <HasFields M>
 Needs needs_of(const M&, const Shapes& shapes) {
@@ -59,26 +48,15 @@ Needs needs_of(const M&, const Shapes& shapes) {
     const double facets = facets_of(shapes, static_cast<double>(first.patching.patches), 4.0);  // as Patching::compared
     return {facets, static_cast<double>(first.replicates) * (static_cast<double>(first.rays) + first.light_samples) * facets};
 }
-template <class M>
-requires(!HasFields<M>) Needs needs_of(const M&, const Shapes&) { return {0.0, 0.0}; }
-
 // The method, and with what the user has left open less and less fine.
 std::vector<Method> less_and_less_fine(const Method& method) {
     std::vector<Method> all{method};
-    if (const auto* guided = std::get_if<method::Guided>(&method); guided && !guided->directions) {
-        method::Guided coarser = *guided;
-        for (std::uint32_t rays = GuideSettings().rays / 2; rays >= fewest_of_table; rays /= 2) {
-            coarser.directions = rays;
-            all.emplace_back(coarser);
-        }
-    }
-    if (const auto* corrected = std::get_if<method::Corrected>(&method); corrected && !corrected->patches) {
-        method::Corrected coarser = *corrected;
-        for (std::size_t patches = ApproximationSettings().patches / 2; patches >= fewest_patches; patches /= 2) {
-            coarser.patches = patches;
-            all.emplace_back(coarser);
-        }
-    }
+    std::visit(
+        [&](const auto& m) {
+            if constexpr (requires { m.coarser(); })
+                for (const auto& coarser : m.coarser()) all.emplace_back(coarser);
+        },
+        method);
     return all;
 }
 
@@ -99,6 +77,15 @@ Preparation Preparations::of(const Method& method) const {
     const Needs needs = std::visit([&](const auto& m) { return needs_of(m, shapes_); }, method);
     if (needs.facets == 0.0) return {};
     return {needs.facets, needs.rays, price_of_ray * needs.rays * seconds_per_ray_ + seconds_of_face * faces_};
+}
+
+bool prepares_fields(const Method& method) {
+    return std::visit(
+        []<class M>(const M& m) {
+            if constexpr (MakesPaths<M>) return m.needs().has_value();
+            return false;
+        },
+        method);
 }
 
 double cut_off_preparation(double seconds) { return 1.5 * longest_preparation(seconds); }

@@ -20,8 +20,8 @@ class Preparations {
 public:
     Preparations(const Scene& scene, const Pilot& pilot);
 
-    // Of `guided`, `corrected`, and of the first and smallest fields of `matrix`, `gather` and `patches`; nothing for methods whose
-    // preparation does not grow with the scene.
+    // Of fields and tables for paths, and of the first and smallest fields of methods that read pictures from fields; nothing for
+    // methods whose preparation does not grow with the scene.
     Preparation of(const Method& method) const;
     // The method, or the finest of those with an option less fine, of which the preparation takes at most so long.
     std::optional<Method> fitting(double seconds, const Method& method) const;
@@ -38,6 +38,9 @@ private:
     double faces_ = 0.0;
     double seconds_per_ray_;
 };
+
+// Whether a method of paths makes fields or tables on patches ready.
+bool prepares_fields(const Method& method);
 
 // A preparation is given up after so many seconds: what was foretold may be wrong by a half.
 double cut_off_preparation(double seconds);

@@ -7,9 +7,12 @@
 namespace neumann {
 
 std::string why_no_replay(const Method& method) {
-    if (has_fields(method)) return "its bounces are read from fields on patches";
-    if (std::holds_alternative<method::Pointwise>(method)) return "each of its bounces is asked for anew";
-    return "";
+    return std::visit(
+        []<class M>(const M&) {
+            if constexpr (MakesPaths<M>) return M::why_no_replay;
+            return "its bounces are read from fields on patches";
+        },
+        method);
 }
 
 RecordedSamples::RecordedSamples(const Scene& scene, const RecordedRender& render, const std::optional<glm::dmat3>& colors) {

@@ -91,21 +91,6 @@ void take_part(const PartOfSamples& part, std::uint64_t size, SamplingGoal& goal
     goal.samples = (all * part.k / part.n - goal.first) * size;
 }
 
-// Chains longer than a replicate has room for.
-void expect_room(const Method& method, const Film& film, std::uint32_t replicate_size) {
-    const auto* metropolis = std::get_if<method::Metropolis>(&method);
-    if (!metropolis || !metropolis->chain) return;
-    const std::uint64_t states =
-        std::uint64_t{replicate_size} * static_cast<std::uint64_t>(film.crop_width) * static_cast<std::uint64_t>(film.crop_height);
-    if (*metropolis->chain > 1 && *metropolis->chain > states / chains_at_once)
-        throw InputError(
-            fmt::format("--chain {}: a replicate of {} samples for each of {}×{} pixels has {} states of a bounce, and its {} "
-                        "chains may be of {} "
-                        "at most",
-                        *metropolis->chain, replicate_size, film.crop_width, film.crop_height, states, chains_at_once,
-                        std::max<std::uint64_t>(states / chains_at_once, 1)));
-}
-
 RestVerdict rest_verdict(const PathMethod& method, const RenderJob& job) {
     if (!method.has_rest() || job.goal.only_pictures) return RestVerdict::not_sampled;
     return job.pilot().converges() ? RestVerdict::measured : RestVerdict::not_converging;
@@ -332,7 +317,7 @@ Method foretold(const Method& method, int bounces, const RenderJob& job) {
     const std::optional<double> seconds = time_limit(job.goal);
     if (!seconds) {
         // What a method prepares for is known without a pilot, but not how long its rays take.
-        if (!std::holds_alternative<method::Guided>(method) && !std::holds_alternative<method::Corrected>(method)) return method;
+        if (!prepares_fields(method)) return method;
         const Preparation preparation = Preparations(job.scene, job.pilot()).of(method);
         if (preparation.seconds > long_preparation)
             job.watch.tell(fmt::format("Before the first sample, {}", describe(preparation)));
@@ -378,7 +363,12 @@ BounceSeries render_by_paths(const Method& asked, const RenderJob& job) {
     if (set_up(method, job, settings)) setup_seconds += clock.seconds();
     if (to_reach.seconds) to_reach.seconds = std::max(*to_reach.seconds - job.seconds_gone(), shortest_sampling);
     settings.replicate_size = choose_replicate_size(to_reach, settings, job);
-    if (!job.saving.from) expect_room(method, scene.film, settings.replicate_size);
+    if (!job.saving.from)
+        std::visit(
+            [&]<class M>(const M& m) {
+                if constexpr (MakesPaths<M>) m.expect_room(scene.film, settings.replicate_size);
+            },
+            method);
     if (goal.part) take_part(*goal.part, settings.replicate_size, to_reach);
     if (to_reach.relative_error && !to_reach.samples && !to_reach.seconds) to_reach.seconds = longest_search;
 

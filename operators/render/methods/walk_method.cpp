@@ -1,7 +1,10 @@
+#include "core/base/error.h"
 #include "operators/render/from_paths/sampling_settings.h"
 #include "operators/render/from_paths/walk_paths.h"
 #include "operators/render/methods/ahead.h"
-#include "operators/render/methods/method.h"
+#include "operators/render/methods/option_makers.h"
+
+#include <fmt/format.h>
 
 namespace neumann::method {
 
@@ -12,7 +15,52 @@ constexpr int tree_width = 32;  // of the pilot of --tree, in pixels
 // (tests/bench/bench_reuse.cpp).
 constexpr std::uint32_t reusing_pixels = 8;
 
+std::optional<TreeGoal> read_tree(const std::string& text) {
+    if (text == "sum") return std::make_optional<TreeGoal>();
+    const auto bounce = number<int>(text);
+    return bounce && *bounce >= 1 && *bounce <= most_depths_of_tree ? std::optional(TreeGoal{*bounce}) : std::nullopt;
+}
+
+std::string print_tree(const std::optional<TreeGoal>& tree) {
+    if (!tree) return "";
+    return tree->bounce ? fmt::format("{}", *tree->bounce) : "sum";
+}
+
 }  // namespace
+
+std::vector<MethodOption> Walk::own_options() {
+    return {
+        option(
+            MethodOption::Kind::text, "tree", "WHAT",
+            "For walk: split walks, and end them by Russian roulette, by the numbers of samples at each depth that a pilot finds "
+            "best for the sum of all bounces (sum) or for one bounce (its number)",
+            [](const Walk& m) { return m.tree; }, [](Walk& m, const TreeGoal& t) { m.tree = t; }, read_tree, print_tree,
+            fmt::format("sum or a bounce from 1 to {}", most_depths_of_tree)),
+        flag(
+            "reuse",
+            "For walk: let the walks of eight pixels in a row use each other's tails, from the second surface on where both are "
+            "diffuse",
+            [](const Walk& m) { return m.reuse; }, [](Walk& m, bool on) { m.reuse = on; })};
+}
+
+void Walk::expect_sense(bool lights) const {
+    if (lights && !asks_lights(direct))
+        throw InputError(fmt::format("--lights chooses among lights, and --direct {} asks none; take light, solid-angle or mis",
+                                     name_of(direct)));
+    if (tree && (split != Split{} || roulette != Roulette{}))
+        throw InputError("--tree chooses what --split and --roulette say; take it alone");
+    if (reuse && (tree || adaptive || split != Split{}))
+        throw InputError("--reuse needs one walk of each pixel; take it without --tree, --adaptive and --split");
+}
+
+std::optional<Decisions> Walk::leaves_out() const {
+    if (tree || reuse) return std::nullopt;
+    Decisions taken{&LeftOut::rays_from_surfaces, &LeftOut::rays_for_light};
+    if (direct.direct != DirectLight::hemisphere && direct.direct != DirectLight::cosine)
+        taken.push_back(&LeftOut::shadow_rays_in_room);
+    if (direct.direct == DirectLight::mis) taken.push_back(&LeftOut::questions);
+    return taken;
+}
 
 std::shared_ptr<const PathMethod> Walk::prepare(const Preparing& in) const {
     if (tree)
