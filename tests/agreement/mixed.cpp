@@ -1,4 +1,4 @@
-#include "operators/render/from_paths/mixture.h"
+#include "operators/render/from_paths/mixed_sampler.h"
 #include "operators/render/methods/method_options.h"
 #include "tests/agreement/reference.h"
 #include "tests/physics/seed.h"
@@ -26,9 +26,10 @@ TEST(MixedPicturesSlow, AgreeWithOtherMethodsBounceByBounce) {
             return physics::settings_of(exact.scene, method::Mixed{}, bounces, physics::fixed_seed + seed, 0.5);
         };
         const SamplingSettings mixed = settings(1);
-        ASSERT_TRUE(mixed.mixture);
+        const auto* paths = as<MixedPaths>(mixed.paths);
+        ASSERT_TRUE(paths);
         std::string parts;
-        for (const Mixture::Part& part : mixed.mixture->parts) parts += fmt::format(" {} {:.0f}%", part.method, 100.0 * part.share);
+        for (const Mixture::Part& part : paths->mixture().parts) parts += fmt::format(" {} {:.0f}%", part.method, 100.0 * part.share);
         const Count count = compare(Blocks(exact.scene, mixed, block, 64), exact,
                                     {.what = fmt::format("mixed,{},", parts), .known = 0.05, .once_more = [&] {
                                          return Blocks(exact.scene, settings(2), block, 256);

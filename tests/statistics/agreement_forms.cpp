@@ -2,7 +2,9 @@
 // walk as a fifth. All have to say the same of the same places in the Cornell box.
 #include "core/reader/read_scene.h"
 #include "core/sampling/sampler.h"
+#include "operators/pointwise/reflection.h"
 #include "operators/pointwise/surface_reflection.h"
+#include "operators/pointwise/transport.h"
 #include "operators/render/from_paths/picture_sampler.h"
 
 #include <gtest/gtest.h>

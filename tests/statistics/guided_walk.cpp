@@ -2,6 +2,7 @@
 #include "core/reader/read_scene.h"
 #include "operators/experiments/known/enclosures.h"
 #include "operators/fields/matrix/scene_patches.h"
+#include "operators/paths/walk/guided_continuation.h"
 #include "operators/render/from_paths/guided_paths.h"
 #include "operators/statistics/picture_statistics.h"
 #include "tests/physics/material_laws.h"
