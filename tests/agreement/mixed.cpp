@@ -26,7 +26,7 @@ TEST(MixedPicturesSlow, AgreeWithOtherMethodsBounceByBounce) {
             return physics::settings_of(exact.scene, method::Mixed{}, bounces, physics::fixed_seed + seed, 0.5);
         };
         const SamplingSettings mixed = settings(1);
-        const auto* paths = as<MixedPaths>(mixed.paths);
+        const auto* paths = as<MixedPaths>(mixed.method);
         ASSERT_TRUE(paths);
         std::string parts;
         for (const Mixture::Part& part : paths->mixture().parts) parts += fmt::format(" {} {:.0f}%", part.method, 100.0 * part.share);

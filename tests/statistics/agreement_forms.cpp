@@ -2,6 +2,8 @@
 // walk as a fifth. All have to say the same of the same places in the Cornell box.
 #include "core/reader/read_scene.h"
 #include "core/sampling/sampler.h"
+#include "operators/algebra/neumann_series.h"
+#include "operators/pointwise/emission.h"
 #include "operators/pointwise/reflection.h"
 #include "operators/pointwise/surface_reflection.h"
 #include "operators/pointwise/transport.h"
