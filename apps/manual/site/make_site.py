@@ -23,8 +23,8 @@ from site_pages import Site
 ROOT = Path(__file__).resolve().parents[3]
 
 # In the order of README.md; pages that are not named here follow.
-MANUAL = """methods measurements limits explorer error-bars health matrices machines python speed scenes collada gltf blender pbrt tungsten counting
-building""".split()
+MANUAL = """methods measurements limits explorer error-bars health matrices machines python speed scenes collada gltf blender pbrt tungsten
+counting building""".split()
 # In the order of `render --help`.
 METHODS = """auto walk guided corrected surface light bidirectional mixed photon cache metropolis classic pointwise matrix gather
 patches""".split()
