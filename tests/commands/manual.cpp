@@ -78,11 +78,12 @@ protected:
         }
         return found;
     }
-    // The texts of the commands and the other pages.
+    // The texts of the commands and the other pages, those of the methods among them.
     static std::vector<std::filesystem::path> manual() {
         std::vector<std::filesystem::path> found;
-        for (const auto& entry : std::filesystem::directory_iterator(repository / "apps/manual"))
-            if (entry.path().extension() == ".md" || entry.path().extension() == ".txt") found.push_back(entry.path());
+        for (const char* folder : {"apps/manual", "apps/manual/methods"})
+            for (const auto& entry : std::filesystem::directory_iterator(repository / folder))
+                if (entry.path().extension() == ".md" || entry.path().extension() == ".txt") found.push_back(entry.path());
         return found;
     }
     // The text that README.md names for each command.
@@ -188,11 +189,13 @@ TEST_F(Manual, OptionsThatAreNamedExist) {
     EXPECT_GT(named, 50u);
 }
 
-// Every page of the manual that belongs to no command is in README.md.
+// Every page of the manual that belongs to no command is in README.md, or, if it is that of a method, in the table of methods.md.
 TEST_F(Manual, ReadmeLeadsToAllPages) {
-    const std::string readme = text_of(repository / "README.md");
+    const std::string readme = text_of(repository / "README.md"), methods = text_of(repository / "apps/manual/methods.md");
     for (const std::filesystem::path& file : manual())
-        if (file.extension() == ".md") {
+        if (file.parent_path().filename() == "methods") {
+            EXPECT_NE(methods.find("](methods/" + file.filename().string() + ") |"), std::string::npos) << file;
+        } else if (file.extension() == ".md") {
             EXPECT_NE(readme.find("](apps/manual/" + file.filename().string() + ")"), std::string::npos) << file;
         }
 }

@@ -178,7 +178,7 @@ TEST(Choice, GuidedWalksHaveAPilotWhereTheyMayBeTakenAndItCostsLittle) {
     EXPECT_FALSE(has_pilot("metal-room", 1u << 10));
 }
 
-// What a study of minutes finds best on these scenes (apps/manual/methods.md), or at most a third behind the best.
+// What a study of minutes finds best on these scenes (apps/manual/measurements.md), or at most a third behind the best.
 TEST(ChoiceSlow, IsThatOfAStudyOnEightScenes) {
     for (const char* name : {"cornell-box", "door-ajar", "floating-panels", "mitsuba-cornell", "outdoor", "sphere-segment"})
         EXPECT_EQ(chosen(of_file(name)), "corrected") << name;
@@ -187,7 +187,7 @@ TEST(ChoiceSlow, IsThatOfAStudyOnEightScenes) {
 
 // Where 64 samples a pixel do not tell, a render of enough rays affords a pilot that does, and a shorter one takes what two pilots
 // find. In facing-mirrors `bidirectional`, which the lights would choose, takes some four times the work of `corrected` for the
-// same error of the worst bounce (apps/manual/methods.md).
+// same error of the worst bounce (apps/manual/measurements.md).
 TEST(ChoiceSlow, LooksLongerForALongRenderAndTwiceForAShortOne) {
     const Scene scene = of_file("facing-mirrors");
     const auto pilot = [&](std::uint64_t samples) {

@@ -23,8 +23,11 @@ from site_pages import Site
 ROOT = Path(__file__).resolve().parents[3]
 
 # In the order of README.md; pages that are not named here follow.
-MANUAL = """methods limits explorer error-bars health matrices machines python speed scenes collada gltf blender pbrt tungsten counting
-building""".split()
+MANUAL = """methods measurements limits explorer error-bars health matrices machines python speed scenes collada gltf blender pbrt tungsten
+counting building""".split()
+# In the order of `render --help`.
+METHODS = """auto walk guided corrected surface light bidirectional mixed photon cache metropolis classic pointwise matrix gather
+patches""".split()
 TUTORIALS = "my-first-scene lecture-figure wrong-bounce paper-figure room-from-blender k-in-scipy".split()
 
 
@@ -69,6 +72,8 @@ def main():
     for path in in_order(manual.glob("*.md"), MANUAL):
         if path.stem != "glossary":
             site.add("Manual", path, f"manual/{path.stem}.html")
+    for path in in_order(manual.glob("methods/*.md"), METHODS):
+        site.add("Methods", path, f"manual/methods/{path.stem}.html", label=path.stem)
     site.add("Commands", manual / "neumann.txt", "commands/neumann.html", title="neumann")
     for path in sorted(manual.glob("*.txt")):
         if path.stem != "neumann":

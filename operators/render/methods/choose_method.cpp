@@ -43,7 +43,7 @@ constexpr double fewest_to_distribute = 32.0;
 constexpr double largest_known_error = 1.0;
 // Guided walks take at least about so much of the walk's work, and their tables are half of what pilots cost. So they have a pilot
 // where no other method takes less, and where these rays and those of the others' pilots are a small part of the render. (Of the
-// scenes in scenes/, 0.49 where they gain most; apps/manual/methods.md.)
+// scenes in scenes/, 0.49 where they gain most; apps/manual/measurements.md.)
 constexpr double work_of_guided = 0.4, rays_of_tables = 4.5e6;
 // Rays for the shared points of `corrected` in a pilot, however small its film is.
 constexpr double rays_of_points = 130'000.0;
