@@ -36,7 +36,7 @@ namespace neumann {
 namespace {
 
 constexpr double large_folder = 200e6;  // bytes, that are told of before they are written
-constexpr int rest_of_files = 50;  // a page in the folder, which nobody asked for, takes a fiftieth of the time
+constexpr int rest_of_files = 50;       // a page in the folder, which nobody asked for, takes a fiftieth of the time
 
 // index.html so far, once the render has taken long enough for it, and where it takes the place of no finished page.
 Viewers viewers_of_files(const Scene& scene, const OutputFolder& folder, const ChosenFiles& files, std::optional<int> bounces,
@@ -193,9 +193,10 @@ int render_command(const RenderRequest& given) {
         const double bytes = estimated_bytes(scene->film, bounces, is_biased(make_method(request.method)), files);
         folder->expect_space(bytes);
         if (bytes > large_folder)
-            watch.tell(fmt::format("The pictures of bounces 0 to {} will take up to {:.0f} MB in {}; fewer with -n, a smaller film, or "
-                                   "--files",
-                                   bounces, bytes * 1e-6, request.output));
+            watch.tell(
+                fmt::format("The pictures of bounces 0 to {} will take up to {:.0f} MB in {}; fewer with -n, a smaller film, or "
+                            "--files",
+                            bounces, bytes * 1e-6, request.output));
     };
     Checkpoints checkpoints(*folder, {request.options, scene->hash}, "neumann render --resume " + request.output,
                             request.checkpoint, !request.resume.empty() || request.goal.part, watch.tell);

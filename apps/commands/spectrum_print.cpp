@@ -232,7 +232,9 @@ nlohmann::ordered_json spectrum_json(const PatchScene& scene, const SceneSpectru
         }
         if (s.by_slepc) {
             Json& slepc = channel["slepc"];
-            slepc = {{"converged", s.by_slepc->converged}, {"why", s.by_slepc->why}, {"applications", s.by_slepc->applications},
+            slepc = {{"converged", s.by_slepc->converged},
+                     {"why", s.by_slepc->why},
+                     {"applications", s.by_slepc->applications},
                      {"eigenvalues", Json::array()}};
             for (const Eigenpair& pair : s.by_slepc->pairs) {
                 Json value = complex_json(pair.value);

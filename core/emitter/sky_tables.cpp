@@ -1,5 +1,5 @@
-// The numbers in this file, and only they, are those of the sample implementation of the model, version 1.4a of 22 February 2013, in
-// its variant for CIE XYZ, and come under these terms:
+// The numbers in this file, and only they, are those of the sample implementation of the model, version 1.4a of 22 February 2013,
+// in its variant for CIE XYZ, and come under these terms:
 //
 // Copyright (c) 2012 - 2013, Lukas Hosek and Alexander Wilkie
 // All rights reserved.

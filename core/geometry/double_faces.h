@@ -51,8 +51,8 @@ public:
     Bounds bounds(const Face& f) const;
     // At least the size, from the triangle alone: its corners are elsewhere in memory.
     double size_at_most(const Face& f) const;
-    // Have memory fetch what is asked for next, of many faces at a time: of a fine mesh it is in no cache. A triangle and the numbers
-    // of its corners; then the corners.
+    // Have memory fetch what is asked for next, of many faces at a time: of a fine mesh it is in no cache. A triangle and the
+    // numbers of its corners; then the corners.
     void prefetch(const Face& f) const {
         if (triangles_[f.shape].empty()) return;
         const char* lines = reinterpret_cast<const char*>(&triangles_[f.shape][f.primitive]);

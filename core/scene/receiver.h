@@ -6,8 +6,6 @@
 
 namespace neumann {
 
-inline Receiver receiver(const SurfaceSide& side) {
-    return {side.p.position, transmits(*side.bsdf) ? Vec3(0.0) : side.p.frame.n};
-}
+inline Receiver receiver(const SurfaceSide& side) { return {side.p.position, transmits(*side.bsdf) ? Vec3(0.0) : side.p.frame.n}; }
 
 }  // namespace neumann

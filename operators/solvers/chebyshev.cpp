@@ -29,7 +29,8 @@ SolverResult solve_chebyshev(const Problem& problem, double lowest, double highe
         d = next * c * d + 2.0 / width * r;
         c = next;
         x += d;
-        if (!log.all_finite(x)) return log.end(x, Verdict::broke_down, "eigenvalues outside of the interval made it grow without end");
+        if (!log.all_finite(x))
+            return log.end(x, Verdict::broke_down, "eigenvalues outside of the interval made it grow without end");
     }
 }
 

@@ -4,7 +4,6 @@
 #include "operators/solvers/solver_log.h"
 #include "operators/solvers/stoppable.h"
 
-
 namespace neumann {
 
 namespace {
@@ -46,7 +45,6 @@ void run_all(const Problem& problem, bool histories, SideBySide& all) {
 double SolverRow::estimate() const {
     return result.history.empty() ? std::numeric_limits<double>::quiet_NaN() : result.history.back().estimate;
 }
-
 
 SideBySide solve_side_by_side(Problem problem, bool histories, const Watch& watch) {
     SideBySide all;

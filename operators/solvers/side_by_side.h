@@ -10,7 +10,8 @@ struct SolverRow {
     std::string name, title;  // as in NamedSolver
     SolverResult result = {};
     double seconds = 0.0;
-    double error = std::numeric_limits<double>::quiet_NaN();  // ‖x − L‖∞ / ‖L‖∞; not a number if L is not known, and for LU, which is the reference
+    double error = std::numeric_limits<double>::quiet_NaN();  // ‖x − L‖∞ / ‖L‖∞; not a number if L is not known, and for LU, which
+                                                              // is the reference
 
     // The last estimate of the error; not a number if there is none.
     double estimate() const;
@@ -18,10 +19,10 @@ struct SolverRow {
 
 struct SideBySide {
     std::string reference = "LU";  // whose answer errors are against
-    std::vector<SolverRow> rows;  // in the order of solvers()
-    Vector exact;                 // the reference's L; empty if it gave none
-    std::string no_reference;     // why the reference gave no L; empty if it did
-    bool interrupted = false;     // the rows end early
+    std::vector<SolverRow> rows;   // in the order of solvers()
+    Vector exact;                  // the reference's L; empty if it gave none
+    std::string no_reference;      // why the reference gave no L; empty if it did
+    bool interrupted = false;      // the rows end early
 };
 
 // `histories`: record true errors; each solver runs again for them, because some are slow with them. A solver that `watch` stops

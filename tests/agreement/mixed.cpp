@@ -29,7 +29,8 @@ TEST(MixedPicturesSlow, AgreeWithOtherMethodsBounceByBounce) {
         const auto* paths = as<MixedPaths>(mixed.method);
         ASSERT_TRUE(paths);
         std::string parts;
-        for (const Mixture::Part& part : paths->mixture().parts) parts += fmt::format(" {} {:.0f}%", part.method, 100.0 * part.share);
+        for (const Mixture::Part& part : paths->mixture().parts)
+            parts += fmt::format(" {} {:.0f}%", part.method, 100.0 * part.share);
         const Count count = compare(Blocks(exact.scene, mixed, block, 64), exact,
                                     {.what = fmt::format("mixed,{},", parts), .known = 0.05, .once_more = [&] {
                                          return Blocks(exact.scene, settings(2), block, 256);

@@ -55,7 +55,8 @@ protected:
             if (file.path().extension() != ".py") continue;
             const std::string text = text_of(file.path());
             const std::regex declared(R"-(add_argument\("(--[a-z][\w-]*)")-");
-            for (std::sregex_iterator match(text.begin(), text.end(), declared), end; match != end; ++match) found.insert((*match)[1]);
+            for (std::sregex_iterator match(text.begin(), text.end(), declared), end; match != end; ++match)
+                found.insert((*match)[1]);
         }
         return found;
     }

@@ -143,8 +143,8 @@ TEST_F(ImageExr, WhatIsNotAPictureIsRefused) {
     const std::string nothing = put("b.exr", "");
     EXPECT_EQ(refusal(nothing), nothing + ": is empty, expected a picture");
     // OpenImageIO asks a reader of its own of the second, which throws, and of the third, which aborts.
-    for (const std::string& path : {put("a.exr", "no picture at all"), put("c.gif", "GIF89a\x05\xfcyfil\x03"),
-                                    put("d", std::string(1000, '\0'))}) {
+    for (const std::string& path :
+         {put("a.exr", "no picture at all"), put("c.gif", "GIF89a\x05\xfcyfil\x03"), put("d", std::string(1000, '\0'))}) {
         EXPECT_EQ(refusal(path),
                   path + ": not a picture that can be read, expected OpenEXR, PNG, JPEG, TIFF, Radiance HDR, PNM, PFM, BMP or TGA");
     }

@@ -1,6 +1,6 @@
 // Cases with known answers, as `neumann stress` runs them, a group at a time. About 1000 comparisons of sampled values, each of
-// which is a false alarm with a probability of 3.0e-5 for a new seed (operators/experiments/known/figures.h): 3% for all, none with the fixed
-// one.
+// which is a false alarm with a probability of 3.0e-5 for a new seed (operators/experiments/known/figures.h): 3% for all, none with
+// the fixed one.
 #include "apps/commands/stress_command.h"
 #include "tests/physics/seed.h"
 

@@ -1,8 +1,8 @@
 // Photons carry the power of the lights: what arrives at each vertex is known in a furnace, and what is in the map is what arrived.
+#include "operators/paths/photons/photon_tracer.h"
 #include "core/base/error.h"
 #include "core/reader/read_scene.h"
 #include "operators/paths/photons/photon_pilot.h"
-#include "operators/paths/photons/photon_tracer.h"
 #include "tests/physics/seed.h"
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
-// Walks at diffuse surfaces are reflected eight at a time (operators/paths/walk/diffuse_packet.h). Every sample must have the bits that
-// it has where each walk is reflected by itself.
+// Walks at diffuse surfaces are reflected eight at a time (operators/paths/walk/diffuse_packet.h). Every sample must have the bits
+// that it has where each walk is reflected by itself.
 #define NEUMANN_SMALL
 #include "core/sampling/sampler.h"
 #include "operators/paths/walk/walk.h"

@@ -1,5 +1,5 @@
-// Scenes that light leaves; their terms are in operators/experiments/known/open_scenes.cpp. The environment is a far sphere seen from inside
-// that emits and is black, so what reaches it is gone.
+// Scenes that light leaves; their terms are in operators/experiments/known/open_scenes.cpp. The environment is a far sphere seen
+// from inside that emits and is black, so what reaches it is gone.
 #include "core/geometry/area_sampler.h"
 #include "tests/physics/probe.h"
 #include "tests/physics/scene_maker.h"

@@ -20,8 +20,8 @@ StartPicker under(const Scene& scene, double mu) {
     return [start = Start{p, Frame(-n).to_world(at_cosine(mu))}](Random&) { return start; };
 }
 
-// K, K² and K³ at the cosines 1 and 0.2, α = 0.5 (operators/experiments/known/microfacets.cpp). Lights found in the other ways, and the
-// operators; light sampling meets the highlight by chance. 2 angles × 4 ways × 3 bounces, to 1.5%: 24 comparisons.
+// K, K² and K³ at the cosines 1 and 0.2, α = 0.5 (operators/experiments/known/microfacets.cpp). Lights found in the other ways, and
+// the operators; light sampling meets the highlight by chance. 2 angles × 4 ways × 3 bounces, to 1.5%: 24 comparisons.
 TEST(RoughFurnaceSlow, AllWaysFindTheSameTerms) {
     const Scene scene = sphere(RoughConductor(Ggx(0.5), {}, Rgb(1.0), Masking::height_correlated));
     for (const auto& [cosine, exact] : {std::pair{1.0, std::vector{0.6878485151102349, 0.47979225079547394, 0.33659055345950384}},

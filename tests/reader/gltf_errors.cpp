@@ -19,9 +19,7 @@ TEST_F(GltfErrors, Files) {
     EXPECT_EQ(error_of(path("none.gltf")), "none.gltf: there is no such file");
     write("folder.gltf/a", "");
     EXPECT_EQ(error_of(path("folder.gltf")), "folder.gltf: is a folder, expected a scene file");
-    EXPECT_EQ(
-        error_of_bytes("a.gltf", ""),
-        "a.gltf: is empty, expected a scene file");
+    EXPECT_EQ(error_of_bytes("a.gltf", ""), "a.gltf: is empty, expected a scene file");
     EXPECT_EQ(error_of_bytes("a.gltf", "{\r\n  \"asset\": {\"version\": \"2.0\",}}"),
               "a.gltf:2:30: broken JSON: syntax error while parsing object key - unexpected '}'; expected string literal");
     EXPECT_EQ(error_of_bytes("a.gltf", "[]"), "a.gltf: an array, expected an object");

@@ -1,6 +1,6 @@
 // Files that are no scenes are told what they are; names that are misspelt, what they may mean.
-#include "core/reader/meshes/write_ply.h"
 #include "core/base/did_you_mean.h"
+#include "core/reader/meshes/write_ply.h"
 #include "tests/reader/xml_scene_files.h"
 
 namespace neumann::other_files_test {

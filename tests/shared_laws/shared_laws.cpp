@@ -70,10 +70,12 @@ void check(const std::string& path, const TracedSettings& settings, Processes& p
     double most[] = {static_cast<double>(table.rays())};
     processes.largest(most);
     if (processes.rank() == 0)
-        fmt::print("{{\"processes\": {}, \"closure\": {}, \"terms\": {}, \"gathered\": {}, \"adjoint\": {}, \"entries\": {}, \"sums\": {}, "
-                   "\"enclosures\": {}, \"rays\": {}, \"most_rays\": {}}}\n",
-                   processes.size(), closure_defect(*shared.transported()), terms, fields, adjoint, entries, sums, enclosed,
-                   shared.rays(), most[0]);
+        fmt::print(
+            "{{\"processes\": {}, \"closure\": {}, \"terms\": {}, \"gathered\": {}, \"adjoint\": {}, \"entries\": {}, \"sums\": "
+            "{}, "
+            "\"enclosures\": {}, \"rays\": {}, \"most_rays\": {}}}\n",
+            processes.size(), closure_defect(*shared.transported()), terms, fields, adjoint, entries, sums, enclosed, shared.rays(),
+            most[0]);
     else
         closure_defect(*shared.transported());
 }

@@ -1,6 +1,6 @@
 // Laws of form factors, and the cube put together of them. Closed forms are in operators/experiments/known/first_bounce.cpp.
-#include "operators/experiments/known/cube.h"
 #include "operators/fields/matrix/form_factors.h"
+#include "operators/experiments/known/cube.h"
 #include "operators/solvers/spectrum/closure.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,5 @@
-// How eigenvalues and norms are found, and what is said where they are not. Known spectra are in operators/experiments/known/eigenvalues.cpp.
+// How eigenvalues and norms are found, and what is said where they are not. Known spectra are in
+// operators/experiments/known/eigenvalues.cpp.
 #include "operators/experiments/known/cube.h"
 #include "operators/experiments/known/small_problems.h"
 #include "operators/solvers/spectrum/closure.h"

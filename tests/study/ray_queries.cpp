@@ -1,7 +1,7 @@
 // What an estimator from outside is told: against Geometry, and in the unit cube, whose walls all shine 1.
+#include "operators/experiments/queries/ray_queries.h"
 #include "core/reader/read_scene.h"
 #include "operators/experiments/queries/camera_rays.h"
-#include "operators/experiments/queries/ray_queries.h"
 
 #include <gtest/gtest.h>
 

@@ -20,9 +20,9 @@ bool is_written_unasked(double bytes, std::optional<double> free);
 class Checkpoints {
 public:
     // A state every so many seconds (default_checkpoint, if they are not given). In the end one stays where the render was
-    // interrupted, where `seconds` are given, or where it `keeps` its samples anyway: those of a part, and those that were added to;
-    // elsewhere it would be several times as large as the pictures. Fields that are finished have none in the end. If nothing asks for
-    // a state, a large one is not written, which `tell` tells once. `resuming`: the command that goes on, for messages.
+    // interrupted, where `seconds` are given, or where it `keeps` its samples anyway: those of a part, and those that were added
+    // to; elsewhere it would be several times as large as the pictures. Fields that are finished have none in the end. If nothing
+    // asks for a state, a large one is not written, which `tell` tells once. `resuming`: the command that goes on, for messages.
     Checkpoints(OutputFolder& folder, RequestOnDisk request, std::string resuming, std::optional<double> seconds, bool keeps,
                 std::function<void(const std::string&)> tell)
         : folder_(folder),

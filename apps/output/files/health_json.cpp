@@ -203,8 +203,7 @@ Json as_json(const Health& health, const Scene& scene, const std::string& folder
     if (checkup.camera)
         json["energy_balance"]["from_the_camera"] = balance_json(*checkup.camera, "path weight", "paths", checkup.paths);
     if (checkup.light) json["energy_balance"]["from_the_lights"] = balance_json(*checkup.light, "W", "paths", checkup.paths);
-    if (!checkup.camera && !checkup.light)
-        json["energy_balance"] = "none: " + health.why_no_balance;
+    if (!checkup.camera && !checkup.light) json["energy_balance"] = "none: " + health.why_no_balance;
     return json;
 }
 

@@ -95,7 +95,8 @@ Strip strip_of_mixture(const Mixture& mixture, std::vector<Image>& maps) {
     for (std::size_t part = 0; part < mixture.parts.size(); ++part)
         for (std::size_t bounce = 0; bounce < bounces; ++bounce) {
             Image& map = maps.emplace_back(static_cast<int>(mixture.blocks.across), static_cast<int>(mixture.blocks.down));
-            for (std::size_t block = 0; block < map.pixels.size(); ++block) map.pixels[block] = Rgb(mixture.weight(part, bounce, block));
+            for (std::size_t block = 0; block < map.pixels.size(); ++block)
+                map.pixels[block] = Rgb(mixture.weight(part, bounce, block));
         }
     Strip strip;
     for (std::size_t i = 0; i < maps.size(); ++i) {

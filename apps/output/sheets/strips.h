@@ -35,8 +35,8 @@ Strip strip_of_sums(const SeriesPictures& series);
 // The sums up to bounce 1, 2, 4, 8 and 16. If the series ends before, its limit follows. May be empty.
 Strip strip_of_doubling(const SeriesPictures& series);
 
-// For each method of a mixture a row with its weights in bounces 0 to 6, as far as they exist, from 0 (black) to 1 (white): a pixel is a
-// block of the picture. The pictures are kept in `maps`.
+// For each method of a mixture a row with its weights in bounces 0 to 6, as far as they exist, from 0 (black) to 1 (white): a pixel
+// is a block of the picture. The pictures are kept in `maps`.
 Strip strip_of_mixture(const Mixture& mixture, std::vector<Image>& maps);
 
 constexpr int largest_picture = 480, strip_label_size = 20;

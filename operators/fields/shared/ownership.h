@@ -15,8 +15,8 @@ struct Ownership {
     std::vector<std::uint32_t> number;  // the new number of each unknown
 };
 
-// Cuts the patches, in Morton's order of their centres, into parts of equal numbers of rays. Both sides of a patch stay together. The
-// same on every process. G. M. Morton, A computer oriented geodetic data base, 1966.
+// Cuts the patches, in Morton's order of their centres, into parts of equal numbers of rays. Both sides of a patch stay together.
+// The same on every process. G. M. Morton, A computer oriented geodetic data base, 1966.
 Ownership share_out(const PatchSpace& space, std::uint32_t rays, int processes, int rank);
 
 }  // namespace neumann

@@ -1,5 +1,5 @@
-// One colour channel of K = R T, of which each process has the rows of its own unknowns (shared_rays.h). A row of K x is the same bits
-// as that of a TracedChannel.
+// One colour channel of K = R T, of which each process has the rows of its own unknowns (shared_rays.h). A row of K x is the same
+// bits as that of a TracedChannel.
 #pragma once
 
 #include "operators/algebra/channel_operator.h"

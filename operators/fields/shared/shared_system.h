@@ -1,4 +1,5 @@
-// A scene as matrices that several processes share. Each has the patches, and of T, R and all vectors what belongs to its own unknowns.
+// A scene as matrices that several processes share. Each has the patches, and of T, R and all vectors what belongs to its own
+// unknowns.
 #pragma once
 
 #include "operators/fields/matrix/matrix_system.h"

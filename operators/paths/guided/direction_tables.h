@@ -35,7 +35,8 @@ public:
     static constexpr int most_terms = 16;
     static int terms(int bounces) { return std::clamp(bounces - 1, 1, most_terms); }
 
-    // `fields` holds at least terms(settings.bounces) bounces. Keeps a reference to their space. Throws Stopped if `watch` stops it.
+    // `fields` holds at least terms(settings.bounces) bounces. Keeps a reference to their space. Throws Stopped if `watch` stops
+    // it.
     DirectionTables(const FieldStack& fields, const TableSettings& settings, const Watch& watch = {});
     // Bytes of the tables of a facet.
     static constexpr std::size_t bytes_of_facet = most_tables * sizeof(CellDistribution);

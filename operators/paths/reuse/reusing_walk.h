@@ -4,9 +4,9 @@
 //
 //     K^{d_p + k} Le at pixel p  ≈  Σ_q β_p ρ_p g(x_p, y_q) V(x_p, y_q) L_q / Σ_r g(x_r, y_q) V(x_r, y_q),   k ≥ 1
 //
-// L_q: the tail's sample of K^k Le at y_q; g: operators/paths/walk/coupling.h. g V is the density with which the walk of r would have
-// found y_q. The weights are those of the balance heuristic, over all walks that came to a diffuse vertex, whatever they found from
-// there.
+// L_q: the tail's sample of K^k Le at y_q; g: operators/paths/walk/coupling.h. g V is the density with which the walk of r would
+// have found y_q. The weights are those of the balance heuristic, over all walks that came to a diffuse vertex, whatever they found
+// from there.
 //
 // A group has one walk of each of some pixels: walks of one pixel would not have much to give to each other, as nearly the same g V
 // stands above and below.

@@ -1,5 +1,5 @@
-// Work that walks leave out because the plan (operators/render/plan) has shown that it does not change the expected picture; except for
-// `questions`, the picture stays the same to the bit. By default nothing is left out.
+// Work that walks leave out because the plan (operators/render/plan) has shown that it does not change the expected picture; except
+// for `questions`, the picture stays the same to the bit. By default nothing is left out.
 #pragma once
 
 #include "core/geometry/surface_point.h"

@@ -1,6 +1,6 @@
-// Light that comes by links (operators/fields/matrix/link_light.h) on diffuse sides, as what is seen in a mirror or through glass reads
-// it: incident radiance on cells of each chart. They are quartered as long as enough paths end there, so that caustics stay sharp,
-// and in any case until they are about as small as patches.
+// Light that comes by links (operators/fields/matrix/link_light.h) on diffuse sides, as what is seen in a mirror or through glass
+// reads it: incident radiance on cells of each chart. They are quartered as long as enough paths end there, so that caustics stay
+// sharp, and in any case until they are about as small as patches.
 #pragma once
 
 #include "core/base/vec.h"

@@ -41,8 +41,8 @@ struct PixelRay {
     double pdf;
     // Where wo and wi lead: `through` and `weight` are of basic radiance L/n², and lights have radiance.
     double index = 1.0, index_beyond = 1.0;
-    // For a gather ray: its throughput, and the number of links (operators/fields/matrix/links.h): of mirrors and other sides from which
-    // it went on.
+    // For a gather ray: its throughput, and the number of links (operators/fields/matrix/links.h): of mirrors and other sides from
+    // which it went on.
     Rgb through;
     std::uint32_t links = 0;
     bool goes_on;

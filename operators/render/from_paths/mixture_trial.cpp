@@ -48,7 +48,8 @@ void MixtureTrial::go_on(std::uint32_t replicates, const Watch& watch) {
         std::vector<Rgb> picture(sums_.size(), Rgb(0.0));
         SampleRanges ranges;
         ranges.of.resize(picture.size());
-        if (!sampler_.paths().sample_picture(static_cast<std::uint64_t>(replicates_), picture, ranges, tally, watch)) throw Stopped();
+        if (!sampler_.paths().sample_picture(static_cast<std::uint64_t>(replicates_), picture, ranges, tally, watch))
+            throw Stopped();
         std::vector<double> means(Q, 0.0);
         for (std::size_t i = 0; i < picture.size(); ++i) {
             sums_[i] += picture[i];

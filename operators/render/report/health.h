@@ -29,9 +29,9 @@ struct SampleHealth {
     // if many samples are alike.
     std::optional<LargestShare> largest;
     // Number of these 1000 samples that are fireflies: the sample alone is more than half of its pixel's sum of all bounces, adds
-    // more than the picture's mean to its pixel, also if there were 256 samples, and adds more than a quarter of the brightest pixel of this bounce (which samples
-    // at the edge of something bright do not). Bounce 0 and renders with fewer than 16 samples per pixel are not judged, because
-    // such samples are usual there.
+    // more than the picture's mean to its pixel, also if there were 256 samples, and adds more than a quarter of the brightest
+    // pixel of this bounce (which samples at the edge of something bright do not). Bounce 0 and renders with fewer than 16 samples
+    // per pixel are not judged, because such samples are usual there.
     std::uint64_t fireflies = 0;
     // If there are fireflies: what else to try against the one in `largest`.
     std::vector<Remedy> remedies = {};

@@ -1,17 +1,18 @@
 // Lower bounds on standard errors. A pixel may miss a sliver of light that none of its samples met, and replicates may agree by
 // chance, so the standard error of a pixel is at least
 //
-//     h/t,  h as one sample more or less leaves open (one_sample_more.h); where replicates do not agree, not in bounces from 2 on by
+//     h/t,  h as one sample more or less leaves open (one_sample_more.h); where replicates do not agree, not in bounces from 2 on
+//     by
 //           photons and records, whose samples are means of many
 //           h as few events leave open (few_events.h), if that is more, where no sample is negative: a path that brings much is an
 //           event, and so is a chain's stay
 //
 // with n samples per pixel, t of the 95% interval, and D the largest minus the smallest sample of the pixel and its eight
 // neighbours. If these are all 0 but light may be there, D is the largest sample of this bounce in the picture; failing that, of an
-// earlier bounce, or ‖Le‖∞ a^i, more for who survives roulette, or no bound at all (what a path of `light` or a photon brings; and a
-// point on a light whose weight directions do not share, if no earlier bounce but Le has met anything).
-// h ≤ ‖K^i Le‖∞ ≤ ‖Le‖∞ a^i, where a is the largest albedo. The bound is 0 where it is known that nothing is there: channels without
-// light or albedo, bounces that the plan proves empty, and pixels around which no ray meets a reflecting surface.
+// earlier bounce, or ‖Le‖∞ a^i, more for who survives roulette, or no bound at all (what a path of `light` or a photon brings; and
+// a point on a light whose weight directions do not share, if no earlier bounce but Le has met anything). h ≤ ‖K^i Le‖∞ ≤ ‖Le‖∞
+// a^i, where a is the largest albedo. The bound is 0 where it is known that nothing is there: channels without light or albedo,
+// bounces that the plan proves empty, and pixels around which no ray meets a reflecting surface.
 #pragma once
 
 #include "operators/render/from_paths/rendered_series.h"

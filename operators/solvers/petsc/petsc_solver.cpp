@@ -174,7 +174,8 @@ Eigenpairs slepc_eigenpairs(const ChannelOperator& K, int count, const std::stri
         for (const Eigenpair& pair : result.pairs) {
             if (!result.converged || pair.residual <= small * std::abs(result.pairs.front().value)) continue;
             result.converged = false;
-            result.why = fmt::format("not found by SLEPc's {}: what it found has a residual of {:.1e}", found.method, pair.residual);
+            result.why =
+                fmt::format("not found by SLEPc's {}: what it found has a residual of {:.1e}", found.method, pair.residual);
         }
         if (!found.converged)
             result.why = fmt::format("not found by SLEPc's {} within {} restarts, {:.0f} applications of K", found.method,

@@ -24,8 +24,8 @@ RadiusBounds radius_bounds(const ChannelOperator& K, double most, const Watch& w
         const Vector largest = (x.array() >= 1.0 - rounding).cast<double>();
         K.apply(largest, next);
         ++bounds.applications;
-        const double kept = K.agreement().lowest(
-            (largest.array() > 0.0).select(next.array(), std::numeric_limits<double>::infinity()).matrix());
+        const double kept =
+            K.agreement().lowest((largest.array() > 0.0).select(next.array(), std::numeric_limits<double>::infinity()).matrix());
         bounds.low = std::max(bounds.low, kept);
         if (bounds.meet()) break;
     }

@@ -1,5 +1,5 @@
-#include "core/base/did_you_mean.h"
 #include "core/reader/formats/film.h"
+#include "core/base/did_you_mean.h"
 #include "core/reader/formats/make_elements.h"
 #include "core/reader/formats/pbrt/sensor.h"
 #include "core/reader/meshes/mesh_text.h"

@@ -9,7 +9,7 @@
 namespace neumann::reader::pbrt {
 
 struct GraphicsState {
-    Mat4 to_world{1.0};  // the current transformation matrix
+    Mat4 to_world{1.0};           // the current transformation matrix
     bool moves_end_only = false;  // after ActiveTransform EndTime: what follows changes where things are when the shutter closes
     bool reversed = false;
     MaterialUse material = {};
