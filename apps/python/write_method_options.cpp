@@ -49,7 +49,7 @@ void print_class(const Method& method) {
 }
 
 void print() {
-    fmt::print(R"("""The options of the methods. Made from operators/render/methods/method_options.cpp when neumann is built."""
+    fmt::print(R"("""The options of the methods. Made from operators/render/methods/method_options.h when neumann is built."""
 
 from dataclasses import dataclass
 from typing import ClassVar, Literal, Optional, Sequence, TypedDict, Union

@@ -1,13 +1,13 @@
 #include "operators/render/methods/method_options.h"
 
-#include "core/base/error.h"
 #include "operators/render/methods/method_table.h"
 #include "operators/render/methods/option_makers.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
+#include <concepts>
+#include <iterator>
 
 namespace neumann {
 
@@ -74,7 +74,7 @@ std::optional<Split> read_split(const std::string& text) {
     return in_range(lights) && in_range(walks) ? std::optional(Split{*lights, *walks}) : std::nullopt;
 }
 
-std::vector<MethodOption> shared_options() {
+std::vector<MethodOption> options_of_walks() {
     return {
         choice(
             "direct", "HOW",
@@ -112,7 +112,11 @@ std::vector<MethodOption> shared_options() {
             "For the methods that make paths, the random numbers: sobol (scrambled Sobol' points) or independent; default the "
             "scene's",
             samplers, [](const auto& m) requires requires { m.sampler; } { return m.sampler; },
-            [](auto& m, SamplerKind s) { m.sampler = s; }),
+            [](auto& m, SamplerKind s) { m.sampler = s; })};
+}
+
+std::vector<MethodOption> shared_options() {
+    return {
         choice(
             "adaptive", "WHAT",
             "For auto, walk, guided, corrected, bidirectional and mixed: more samples for the pixels that need them, by a pilot, "
@@ -160,8 +164,15 @@ void add_own(std::vector<MethodOption>& all) {
 
 std::span<const MethodOption> method_options() {
     static const std::vector<MethodOption> all = [] {
-        std::vector<MethodOption> options = shared_options();
-        for (const Method& method : all_methods()) std::visit([&]<class M>(const M&) { add_own<M>(options); }, method);
+        std::vector<MethodOption> options = options_of_walks();
+        add_own<method::Walk>(options);
+        std::ranges::move(shared_options(), std::back_inserter(options));
+        for (const Method& method : all_methods())
+            std::visit(
+                [&]<class M>(const M&) {
+                    if constexpr (!std::same_as<M, method::Walk>) add_own<M>(options);
+                },
+                method);
         return options;
     }();
     return all;

@@ -187,8 +187,8 @@ void add_setup(BounceSeries& series, const SamplingSettings& settings, double se
     for (Checkpoint& checkpoint : series.convergence) checkpoint.seconds += setup_seconds;
 }
 
-PathRecord record_of(const RenderedSeries& sampled, const SamplingSettings& settings, RestVerdict verdict, std::uint64_t first,
-                     const RenderJob& job) {
+PathRecord record_of(const RenderedSeries& sampled, const Method& method, const SamplingSettings& settings, RestVerdict verdict,
+                     std::uint64_t first, const RenderJob& job) {
     PathRecord record;
     record.replicate_size = sampled.replicate_size;
     record.replicates = sampled.moments.replicates();
@@ -199,7 +199,7 @@ PathRecord record_of(const RenderedSeries& sampled, const SamplingSettings& sett
     if (verdict == RestVerdict::not_converging)
         record.why_no_rest = fmt::format("{} of {} walks had not ended after {} bounces and were given up", job.pilot().given_up(),
                                          job.pilot().walks(), job.pilot().bounces() + Pilot::give_up);
-    record.paths = settings.method;
+    if (!prepares_fields(method)) record.paths = settings.method;  // fields are large, and nothing is told of them
     record.chains = sampled.tally.chains;
     if (settings.allocation) {
         SamplingSettings as_sampled = settings;
@@ -230,7 +230,7 @@ AsSeries as_series(const RenderedSeries& sampled, SeriesReport report, const Met
     report_bias(job.scene.film, *moments, *settings.method, series);
     series.paths = paths;
     series.method = as_it_ran(method, settings, job.scene.film);
-    series.record = record_of(sampled, settings, verdict, first, job);
+    series.record = record_of(sampled, method, settings, verdict, first, job);
     warn_of_paths(series, job, settings, sampled, max_component(job.scene.materials.largest_basic_albedo()));
     add_setup(series, settings, setup_seconds);
     return {std::move(series), moments};
