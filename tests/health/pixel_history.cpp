@@ -114,11 +114,10 @@ TEST(PixelHistory, SeedsComeOneAfterTheOther) {
 }
 
 TEST(PixelHistory, WhatOtherPixelsBringIsNotInIt) {
-    EXPECT_EQ(why_no_history(PictureSampler(room(), settings())), "");
+    EXPECT_EQ(plain_walks()->why_no_history(), "");
     const std::shared_ptr<const PathMethod> from_lights[] = {std::make_shared<const LightPaths>(),
                                                              std::make_shared<const BidirectionalPaths>()};
-    for (const auto& method : from_lights)
-        EXPECT_EQ(why_no_history(PictureSampler(room(), settings(method))), "the paths of all pixels bring light to it");
+    for (const auto& method : from_lights) EXPECT_EQ(method->why_no_history(), "the paths of all pixels bring light to it");
 }
 
 }  // namespace neumann::pixel_history_test

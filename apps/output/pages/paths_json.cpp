@@ -137,7 +137,7 @@ Json pixel_json(const RecordedRun& run, const Scene& scene, RecordedSamplers& sa
         throw InputError(fmt::format("--paths {},{}: no samples were taken of this pixel", pixel.x, pixel.y));
     Json json = {{"pixel", {pixel.x, pixel.y}}, {"picture", {pixel.x - scene.film.crop_x, pixel.y - scene.film.crop_y}}};
     std::optional<PixelHistory> history;
-    if (const std::string why = why_no_history(sampler); why.empty()) {
+    if (const std::string why = sampler.settings().method->why_no_history(); why.empty()) {
         history = history_of_pixel(replicates, number);
         json["history"] = history_json(*history);
     } else {

@@ -1,4 +1,4 @@
-// Samples the terms by several methods, whose pictures are mixed (operators/render/from_paths). A replicate is a whole picture by
+// Samples the terms by several methods, whose pictures are mixed (mixture.h). A replicate is a whole picture by
 // each of them.
 //
 // Sample j of method m of n, both counted from 0, has the name j n + m.

@@ -16,7 +16,7 @@
 namespace neumann {
 
 // Calls trace(group, work), which samples these pixels of the replicate into work.group.samples. A Workspace is made for a number
-// of quantities and has a group, an average and a tally. As PictureSampler's samplers of pictures.
+// of quantities and has a group, an average and a tally. As PathSampler::sample_picture().
 template <class Workspace, class Trace>
 bool sample_groups(const SamplingSettings& settings, const SampleLayout& layout, std::uint64_t replicate, std::vector<Rgb>& picture,
                    SampleRanges& ranges, Tally& tally, const Watch& watch, const Trace& trace) {

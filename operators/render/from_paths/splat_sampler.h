@@ -6,7 +6,6 @@
 #include "core/sampling/sampler.h"
 #include "operators/paths/bidirectional/bidirectional.h"
 #include "operators/paths/bidirectional/light_tracing.h"
-#include "operators/paths/walk/path_observer.h"
 #include "operators/render/from_paths/path_sampler.h"
 
 namespace neumann {
@@ -40,7 +39,6 @@ public:
         ways  // of bounce N, each way (s, t) to make it: N + 2 weighted ones, and then N + 2 unweighted ones
     };
     explicit BidirectionalPaths(Quantities quantities = Quantities::terms) : quantities_(quantities) {}
-    Quantities quantities() const { return quantities_; }
 
     std::shared_ptr<const PathSampler> sampler(const Scene& scene, const SamplingSettings& settings) const override;
     std::size_t pictures(int bounces) const override {

@@ -72,8 +72,6 @@ std::vector<std::size_t> PixelHistory::largest(std::size_t most) const {
     return order;
 }
 
-std::string why_no_history(const PictureSampler& sampler) { return sampler.settings().method->why_no_history(); }
-
 PixelHistory history_of_pixel(std::span<const ReplicatesOf> replicates, std::uint32_t pixel) {
     PixelHistory history;
     std::optional<SeriesMoments> earlier;  // of the seeds before

@@ -39,9 +39,6 @@ struct PixelHistory {
     std::vector<std::size_t> largest(std::size_t count) const;
 };
 
-// Why a pixel's own samples do not make the pixel, in words; empty if they do.
-std::string why_no_history(const PictureSampler& sampler);
-
 PixelHistory history_of_pixel(std::span<const ReplicatesOf> replicates, std::uint32_t pixel);
 
 }  // namespace neumann
