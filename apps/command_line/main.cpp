@@ -1,7 +1,7 @@
 // The command line.
+#include "apps/command_line/add_options.h"
 #include "apps/command_line/command_manual.h"
 #include "apps/command_line/commands.h"
-#include "apps/command_line/options.h"
 #include "apps/command_line/unknown_words.h"
 #include "apps/processes/launch.h"
 #include "core/base/did_you_mean.h"

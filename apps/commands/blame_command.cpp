@@ -1,6 +1,5 @@
 #include "apps/commands/blame_command.h"
 
-#include "apps/commands/parse_definitions.h"
 #include "apps/commands/print_warnings.h"
 #include "apps/output/files/blame_files.h"
 #include "apps/output/files/json_text.h"
@@ -153,7 +152,9 @@ int blame_command(const BlameRequest& request) {
     if (request.pictures.size() < 2) throw InputError("expected pictures and a scene: neumann blame depth_*.exr scene.xml");
     const BlameSettings settings = blame_settings(request);
     const std::vector<DepthPicture> pictures = read_pictures(request);
-    const Scene scene = read_scene(request.pictures.back(), parse_definitions(request.definitions), {.lenient = request.lenient});
+    SceneFile file = request.scene;
+    file.path = request.pictures.back();
+    const Scene scene = read_scene(file);
     print_warnings(scene.replaced, false);
     const ThreadLimit threads(request.threads);
     catch_interrupts();

@@ -1,30 +1,10 @@
 // `neumann blame PICTURES SCENE`: which bounce of another renderer is wrong, and in what way.
 #pragma once
 
+#include "apps/requests/blame_request.h"
 #include "operators/experiments/blame/blame.h"
 
-#include <cstdint>
-#include <optional>
-#include <string>
-#include <vector>
-
 namespace neumann {
-
-struct BlameRequest {
-    std::vector<std::string> pictures;     // files and folders, and the scene as the last
-    std::vector<std::string> again;        // the same with another seed
-    std::optional<std::string> channels;   // a layer of the files
-    std::optional<std::string> counts;     // mitsuba, pbrt, cycles or bounces
-    std::vector<std::string> definitions;  // -D, as typed
-    bool lenient = false;
-    std::optional<double> seconds;
-    std::optional<std::uint64_t> samples;
-    std::uint64_t seed = 0;
-    int threads = 0;
-    std::string output;  // a folder for the page and pictures, or empty
-    bool json = false;
-    std::string command_line;  // as typed, for the page
-};
 
 // Throws InputError for a counting that there is not.
 BlameSettings blame_settings(const BlameRequest& request);

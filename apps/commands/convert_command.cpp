@@ -1,6 +1,5 @@
 #include "apps/commands/convert_command.h"
 
-#include "apps/commands/parse_definitions.h"
 #include "apps/commands/print_warnings.h"
 #include "apps/output/files/new_file.h"
 #include "core/base/error.h"
@@ -61,9 +60,9 @@ int convert_command(const ConvertRequest& request) {
     std::error_code error;
     if (output.extension() != ".xml") throw InputError(fmt::format("{}: expected a name that ends in .xml", request.output));
     if (fs::is_directory(output, error)) throw InputError(fmt::format("{}: is a folder, expected a file", request.output));
-    if (fs::equivalent(output, request.scene, error))
+    if (fs::equivalent(output, request.scene.path, error))
         throw InputError(fmt::format("{}: is the scene itself, expected another file", request.output));
-    const ConvertedScene converted = convert_scene(request.scene, parse_definitions(request.definitions), request.lenient);
+    const ConvertedScene converted = convert_scene(request.scene.path, request.scene.definitions, request.scene.lenient);
     NewFiles written;
     for (const auto& [name, bytes] : converted.files) written.write(output.parent_path() / name, bytes);
     written.write(output, converted.xml);  // the last, so that what it names is there

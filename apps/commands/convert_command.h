@@ -1,17 +1,9 @@
 // `neumann convert SCENE OUT.xml`: a scene of any format as a Mitsuba 3 file.
 #pragma once
 
-#include <string>
-#include <vector>
+#include "apps/requests/convert_request.h"
 
 namespace neumann {
-
-struct ConvertRequest {
-    std::string scene, output;
-    std::vector<std::string> definitions;  // -D, as typed
-    bool lenient = false;
-    bool quiet = false;
-};
 
 // Writes OUT.xml, and beside it the folders meshes and textures with what it names: all files or none. Exit code 0. Throws
 // InputError, and RunError if the disk is full.

@@ -7,12 +7,6 @@
 
 namespace neumann {
 
-struct ExportRequest {
-    PatchOptions patches;
-    std::string output;  // a folder; empty: out/NAME-matrices
-    bool with_K = false;
-};
-
 // Throws InputError if T and R of the system are too large for memory as matrices.
 void check_matrix_memory(const PatchOptions& options, const TracedSystem& system);
 // patches.csv: a row for each side of a patch, with its first unknown.

@@ -1,13 +1,13 @@
 #include "apps/commands/merge_command.h"
 
-#include "apps/commands/parse_definitions.h"
 #include "apps/commands/print_rendering.h"
+#include "apps/output/files/json_text.h"
+#include "apps/output/files/request_json.h"
 #include "apps/output/files/saved_render.h"
 #include "apps/output/rendering_files.h"
 #include "core/base/error.h"
 #include "core/base/limits.h"
 #include "core/base/stopwatch.h"
-#include "core/reader/read_scene.h"
 #include "operators/render/methods/merge.h"
 #include "operators/render/methods/render.h"
 
@@ -19,12 +19,6 @@
 namespace neumann {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-std::vector<std::string> values_of(const Json& options, const char* name) {
-    return options.contains(name) ? options.at(name).get<std::vector<std::string>>() : std::vector<std::string>();
-}
 
 NamedState read(const std::string& folder) {
     const std::filesystem::path file = std::filesystem::path(folder) / samples_file;
@@ -44,9 +38,9 @@ NamedState read(const std::string& folder) {
 }
 
 // The samples a pixel that parts leave out, because one of them is not here or was cut short.
-std::uint64_t missing_samples(const Json& options, const RenderState& merged) {
-    if (!options.contains("--part")) return 0;
-    const std::uint64_t all = std::stoull(options.at("--spp").at(0).get<std::string>());
+std::uint64_t missing_samples(const Goal& goal, const RenderState& merged) {
+    if (!goal.part) return 0;
+    const std::uint64_t all = goal.samples.value();
     std::map<std::uint64_t, std::uint64_t> of_seed;
     for (const SeedRange& range : merged.series.merged) of_seed[range.seed] += range.count * merged.render.replicate_size;
     if (of_seed.empty()) of_seed[merged.render.seed] = merged.series.samples;
@@ -73,23 +67,22 @@ int merge_command(const MergeRequest& request) {
     }
     RenderState merged = merge(std::move(renders));
 
-    const std::uint64_t missing = missing_samples(asked.front().options, merged);
+    RenderRequest all = request_from_json(render_options(), asked.front().request);
+    const std::uint64_t missing = missing_samples(all.goal, merged);
     const ThreadLimit threads(request.threads);
-    Json options = asked.front().options;
-    for (const char* name : {"--part", "--seed", "--spp", "--paths"}) options.erase(name);
-    if (merged.series.merged.empty()) {
-        options["--spp"] = {std::to_string(merged.series.samples)};
-        if (merged.render.seed != 0) options["--seed"] = {std::to_string(merged.render.seed)};
-    }
-    const std::string file = request.scene.empty() ? options.at("SCENE").at(0).get<std::string>() : request.scene;
-    options["SCENE"] = {file};
-    const auto definitions = parse_definitions(values_of(options, "-D"));
-    const auto scene = std::make_shared<const Scene>(read_scene(file, definitions, {.lenient = options.contains("--lenient")}));
+    const bool one_seed = merged.series.merged.empty();
+    all.goal.part.reset();
+    all.goal.samples = one_seed ? std::optional(merged.series.samples) : std::nullopt;
+    all.goal.seed = one_seed ? merged.render.seed : 0;
+    all.paths.clear();
+    all.scene.path = request.scene.empty() ? file_named_in_json(all.scene.path) : request.scene;
+    all.command_line = request.command_line;
+    const auto scene = std::make_shared<const Scene>(read_scene(all.scene));
     if (scene->hash != asked.front().scene_hash)
-        throw InputError(fmt::format("{}: is not the scene that was rendered, or has changed since", file));
+        throw InputError(fmt::format("{}: is not the scene that was rendered, or has changed since", all.scene.path));
 
     OutputFolder folder(request.output, "render");
-    const RequestOnDisk together{options, scene->hash};
+    const RequestOnDisk together{as_json(render_options(), all), scene->hash};
     save_render(folder, together, merged.render, merged.choice, merged.series);
     Goal goal;
     goal.samples = merged.series.samples;
@@ -100,8 +93,8 @@ int merge_command(const MergeRequest& request) {
     if (missing > 0)
         series.warnings.add(
             fmt::format("{} samples a pixel of the whole are missing: a part is not here, or was cut short", missing));
-    const Rendering rendering{file,  request.command_line, options,         definitions,
-                              scene, std::move(series),    clock.seconds(), choose_files(request.files, request.theme == "white")};
+    const Rendering rendering{all, scene, std::move(series), clock.seconds(),
+                              choose_files(request.files, request.theme == "white")};
     const auto [warnings, json, page, why_no_paths] = write_rendering(rendering, folder);
     if (!request.quiet) print_rendering(rendering, warnings, request.output);
     return 0;

@@ -1,10 +1,12 @@
 #include "apps/commands/page_command.h"
 
 #include "apps/output/files/rendered_folder.h"
+#include "apps/output/files/request_json.h"
 #include "apps/output/files/series_files.h"
 #include "apps/output/files/ways_files.h"
 #include "apps/output/pages/explorer_page.h"
 #include "apps/output/pages/paths_json.h"
+#include "apps/requests/render_request.h"
 #include "core/base/error.h"
 #include "core/base/limits.h"
 
@@ -17,8 +19,7 @@ namespace {
 
 std::string theme_of(const RenderedFolder& rendered) {
     const auto request = rendered.run().find("request");
-    if (request == rendered.run().end() || !request->contains("--theme")) return "dark";
-    return request->at("--theme").at(0).get<std::string>();
+    return request == rendered.run().end() ? "dark" : request_from_json(render_options(), *request).theme;
 }
 
 nlohmann::ordered_json paths_of(const std::string& folder, const ChosenPixels& chosen) {
@@ -28,11 +29,6 @@ nlohmann::ordered_json paths_of(const std::string& folder, const ChosenPixels& c
 }
 
 }  // namespace
-
-const std::vector<std::string>& page_file_groups() {
-    static const std::vector<std::string> all{"tables", "sheets", "strips", "page"};
-    return all;
-}
 
 int page_command(const PageRequest& request) try {
     const ThreadLimit threads(request.threads);

@@ -1,6 +1,5 @@
 #include "apps/commands/patch_scene.h"
 
-#include "apps/commands/parse_definitions.h"
 #include "apps/commands/print_warnings.h"
 #include "apps/output/files/checkpoints.h"
 #include "apps/output/files/row_files.h"
@@ -9,12 +8,10 @@
 #include "core/base/interrupt.h"
 #include "core/base/limits.h"
 #include "core/geometry/ray_caster.h"
-#include "core/reader/read_scene.h"
 #include "core/scene/normal_maps.h"
 #include "operators/fields/shared/shared_system.h"
 
 #include <fmt/format.h>
-#include <bit>
 #include <cmath>
 #include <cstdio>
 #include <exception>
@@ -23,35 +20,26 @@ namespace neumann {
 
 namespace {
 
-constexpr std::uint64_t most_rays = 1 << 20;
 constexpr const char* letters[] = {"r", "g", "b"};  // of the channels
 
 TracedSettings settings(const PatchOptions& options) {
-    if (options.patches == 0) throw InputError("--patches 0: expected at least 1");
-    const std::uint64_t rays = options.rays;
-    if (rays > most_rays) throw InputError(fmt::format("--directions {}: expected at most {}", rays, most_rays));
-    if (rays == 0) throw InputError("--directions 0: expected a power of two, such as 64");
-    if (!std::has_single_bit(rays))
-        throw InputError(fmt::format("--directions {}: expected a power of two, such as {} or {}", rays, std::bit_floor(rays),
-                                     std::bit_ceil(rays)));
-    return {options.patches, static_cast<std::uint32_t>(rays), options.seed, memory_limit(options.memory)};
+    return {options.patches, options.rays, options.seed, memory_limit(options.memory)};
 }
 
-std::shared_ptr<const Scene> read(const PatchOptions& options) {
-    settings(options);  // before anything is read
+std::shared_ptr<const Scene> read_interruptibly(const SceneFile& file) {
     const EndsAtInterrupts reading;
-    return std::make_shared<const Scene>(
-        read_scene(options.scene, parse_definitions(options.definitions), {.lenient = options.lenient}));
+    return std::make_shared<const Scene>(read_scene(file));
 }
 
 // Throws on all processes if one cannot use the folder.
-std::unique_ptr<RowFiles> open_rows(const PatchOptions& options, const Scene& scene,
-                                    const std::map<std::string, std::string>& definitions, Processes* processes) {
+std::unique_ptr<RowFiles> open_rows(const PatchOptions& options, const Scene& scene, Processes* processes) {
     std::unique_ptr<RowFiles> rows;
     std::exception_ptr wrong;
     try {
         rows = std::make_unique<RowFiles>(
-            *options.keep, nlohmann::ordered_json{{"hash", scene.hash}, {"definitions", definitions}, {"lenient", options.lenient}},
+            *options.keep,
+            nlohmann::ordered_json{
+                {"hash", scene.hash}, {"definitions", options.scene.definitions}, {"lenient", options.scene.lenient}},
             processes ? processes->rank() : 0, options.checkpoint.value_or(default_checkpoint));
     } catch (const InputError&) {
         wrong = std::current_exception();
@@ -65,26 +53,24 @@ std::unique_ptr<RowFiles> open_rows(const PatchOptions& options, const Scene& sc
 
 }  // namespace
 
-PatchScene::PatchScene(const PatchOptions& options) : PatchScene(options, read(options), parse_definitions(options.definitions)) {}
+PatchScene::PatchScene(const PatchOptions& options) : PatchScene(options, read_interruptibly(options.scene)) {}
 
-PatchScene::PatchScene(const PatchOptions& options, std::shared_ptr<const Scene> scene,
-                       std::map<std::string, std::string> definitions)
-    : PatchScene(options, scene, std::move(definitions), nullptr, [&](const TracedSettings& traced) {
+PatchScene::PatchScene(const PatchOptions& options, std::shared_ptr<const Scene> scene)
+    : PatchScene(options, scene, nullptr, [&](const TracedSettings& traced) {
           return std::make_unique<TracedSystem>(*scene, traced, Watch{.stop = interrupted});
       }) {}
 
 PatchScene::PatchScene(const PatchOptions& options, Processes& processes, const std::string& petsc)
-    : PatchScene(options, read(options), parse_definitions(options.definitions), &processes, [&](const TracedSettings& traced) {
+    : PatchScene(options, read_interruptibly(options.scene), &processes, [&](const TracedSettings& traced) {
           return std::make_unique<SharedSystem>(*scene_, traced, processes, petsc, Watch{.stop = interrupted});
       }) {}
 
-PatchScene::PatchScene(const PatchOptions& options, std::shared_ptr<const Scene> scene,
-                       std::map<std::string, std::string> definitions, Processes* processes,
+PatchScene::PatchScene(const PatchOptions& options, std::shared_ptr<const Scene> scene, Processes* processes,
                        const std::function<std::unique_ptr<MatrixSystem>(const TracedSettings&)>& make)
-    : options_(options), threads_(options.threads), definitions_(std::move(definitions)), scene_(std::move(scene)) {
+    : options_(options), threads_(options.threads), scene_(std::move(scene)) {
     TracedSettings traced = settings(options);
     // Others may use the folder again as soon as T is traced.
-    const auto rows = options.keep ? open_rows(options, *scene_, definitions_, processes) : nullptr;
+    const auto rows = options.keep ? open_rows(options, *scene_, processes) : nullptr;
     traced.store = rows.get();
     try {
         system_ = make(traced);
@@ -95,7 +81,7 @@ PatchScene::PatchScene(const PatchOptions& options, std::shared_ptr<const Scene>
     } catch (const KeptRowsError&) {
         throw;
     } catch (const InputError& e) {
-        throw InputError(options.scene + ": " + e.what());
+        throw InputError(options.scene.path + ": " + e.what());
     }
 }
 
@@ -108,7 +94,7 @@ std::vector<std::string> PatchScene::warnings() const {
 }
 
 std::string PatchScene::title() const {
-    return fmt::format("{}: {} patches, {} unknowns, {} rays each, seed {}", options_.scene, system_->space().patches().size(),
+    return fmt::format("{}: {} patches, {} unknowns, {} rays each, seed {}", options_.scene.path, system_->space().patches().size(),
                        system_->space().size(), options_.rays, options_.seed);
 }
 
@@ -116,7 +102,7 @@ nlohmann::ordered_json PatchScene::json() const {
     nlohmann::ordered_json json;
     json["program"] = {{"name", "neumann"}, {"version", NEUMANN_VERSION}, {"ray_caster", embree_version()}};
     json["command"] = options_.command_line;
-    json["scene"] = scene_json(*scene_, options_.scene, definitions_);
+    json["scene"] = scene_json(*scene_, options_.scene);
     json["options"] = {{"patches", options_.patches}, {"directions", options_.rays}, {"seed", options_.seed}};
     json["patches"] = system_->space().patches().size();
     json["unknowns"] = system_->space().size();
@@ -125,10 +111,9 @@ nlohmann::ordered_json PatchScene::json() const {
 }
 
 std::optional<int> channel_number(const std::string& name) {
-    if (name.empty()) return std::nullopt;
     for (int c = 0; c < 3; ++c)
         if (name == letters[c]) return c;
-    throw InputError("--channel " + name + ": expected r, g or b");
+    return std::nullopt;
 }
 
 }  // namespace neumann

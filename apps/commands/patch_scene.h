@@ -1,6 +1,7 @@
 // Shared by the commands that treat a scene as matrices: their options, and the construction of space, table, R and channels.
 #pragma once
 
+#include "apps/requests/patch_request.h"
 #include "core/base/limits.h"
 #include "core/base/processes/processes.h"
 #include "core/base/warnings.h"
@@ -9,7 +10,6 @@
 #include <nlohmann/json.hpp>
 
 #include <functional>
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -17,31 +17,15 @@
 
 namespace neumann {
 
-struct PatchOptions {
-    std::string scene;
-    std::vector<std::string> definitions;  // -D name=value
-    bool lenient = false;
-    std::uint64_t patches = 2000;
-    std::uint64_t rays = 64;  // per facet
-    std::uint64_t seed = 0;
-    int threads = 0;                  // 0: all
-    std::optional<double> memory;     // GiB
-    std::optional<std::string> keep;  // folder for the rows of T
-    std::optional<double> checkpoint;
-    bool quiet = false;
-    bool json = false;
-    std::string command_line;  // as typed
-};
-
 // The scene of a command, read and traced. During its lifetime it limits the number of threads.
 class PatchScene {
 public:
-    // Throws InputError that names the wrong option or scene, and what is allowed, and Stopped at Ctrl-C.
+    // Throws InputError that names the scene and what is wrong, and Stopped at Ctrl-C.
     explicit PatchScene(const PatchOptions& options);
     // For processes that share it, all together; `petsc`: SLEPc's options.
     PatchScene(const PatchOptions& options, Processes& processes, const std::string& petsc);
-    // Uses a scene that was read before, with these definitions.
-    PatchScene(const PatchOptions& options, std::shared_ptr<const Scene> scene, std::map<std::string, std::string> definitions);
+    // Uses a scene that was read before.
+    PatchScene(const PatchOptions& options, std::shared_ptr<const Scene> scene);
 
     const Scene& scene() const { return *scene_; }
     const MatrixSystem& system() const { return *system_; }
@@ -59,17 +43,16 @@ public:
     nlohmann::ordered_json json() const;
 
 private:
-    PatchScene(const PatchOptions& options, std::shared_ptr<const Scene> scene, std::map<std::string, std::string> definitions,
-               Processes* processes, const std::function<std::unique_ptr<MatrixSystem>(const TracedSettings&)>& make);
+    PatchScene(const PatchOptions& options, std::shared_ptr<const Scene> scene, Processes* processes,
+               const std::function<std::unique_ptr<MatrixSystem>(const TracedSettings&)>& make);
 
     PatchOptions options_;
     ThreadLimit threads_;
-    std::map<std::string, std::string> definitions_;
     std::shared_ptr<const Scene> scene_;
     std::unique_ptr<MatrixSystem> system_;
 };
 
-// The channel that --channel names: r, g or b; nothing if the name is empty. Throws InputError.
+// Of r, g or b; nothing if the name is empty.
 std::optional<int> channel_number(const std::string& name);
 
 }  // namespace neumann

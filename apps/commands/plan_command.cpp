@@ -1,6 +1,5 @@
 #include "apps/commands/plan_command.h"
 
-#include "apps/commands/parse_definitions.h"
 #include "apps/commands/print_warnings.h"
 #include "apps/output/files/json_text.h"
 #include "apps/output/files/plan_json.h"
@@ -12,7 +11,7 @@
 namespace neumann {
 
 int plan_command(const PlanRequest& request) {
-    const Scene scene = read_scene(request.scene, parse_definitions(request.definitions), {.lenient = request.lenient});
+    const Scene scene = read_scene(request.scene);
     const Plan plan = plan_with_bounces(scene);
     print_warnings(scene.replaced, false);
     if (request.json) {

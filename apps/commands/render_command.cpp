@@ -1,6 +1,5 @@
 #include "apps/commands/render_command.h"
 
-#include "apps/commands/parse_definitions.h"
 #include "apps/commands/preview.h"
 #include "apps/commands/print_rendering.h"
 #include "apps/commands/progress_line.h"
@@ -11,6 +10,7 @@
 #include "apps/output/files/json_text.h"
 #include "apps/output/files/recorded_run.h"
 #include "apps/output/files/reference.h"
+#include "apps/output/files/request_json.h"
 #include "apps/output/files/saved_render.h"
 #include "apps/output/files/scene_json.h"
 #include "apps/output/files/series_files.h"
@@ -20,7 +20,6 @@
 #include "core/base/limits.h"
 #include "core/base/stopwatch.h"
 #include "core/image/image_io.h"
-#include "core/reader/read_scene.h"
 #include "operators/render/from_paths/rendered_series.h"
 #include "operators/render/methods/render.h"
 
@@ -70,9 +69,9 @@ void expect_nothing_unfinished(const std::string& folder) {
 std::optional<RenderState> read_state(const RenderRequest& request, const Scene& scene,
                                       const std::function<void(const std::string&)>& tell) {
     if (request.resume.empty()) return std::nullopt;
-    if (scene.hash != request.scene_hash)
+    if (scene.hash != request_in(request.resume).scene_hash)
         throw InputError(fmt::format("--resume {}: {} is not the scene that it began with, or has changed since", request.resume,
-                                     request.scene));
+                                     request.scene.path));
     const auto file = saved_render_in(request.resume);
     if (!file) return std::nullopt;
     RenderState state = read_saved_render(*file);
@@ -121,9 +120,7 @@ std::shared_ptr<Rendering> render(const RenderRequest& request, std::shared_ptr<
         watch.judge = [&](const auto& term, const Image& sum, Checkpoint& checkpoint) { reference->judge(term, sum, checkpoint); };
     }
     const auto as_rendering = [&](BounceSeries series) {
-        return Rendering{
-            request.scene, request.command_line, request.options, request.definitions,
-            scene,         std::move(series),    clock.seconds(), choose_files(request.files, request.theme == "white")};
+        return Rendering{request, scene, std::move(series), clock.seconds(), choose_files(request.files, request.theme == "white")};
     };
     if (viewers && !viewers->all.empty()) {
         saving.longest_part = std::min(saving.longest_part, viewers->longest_unseen);
@@ -142,7 +139,6 @@ std::shared_ptr<Rendering> render(const RenderRequest& request, std::shared_ptr<
 
 int render_command(const RenderRequest& given) {
     RenderRequest request = given;
-    request.definitions = parse_definitions(request.definition_texts);
     const bool fields = has_fields(make_method(request.method));  // refuses what does not go together, before the scene is read
     if (request.goal.part && (fields || !request.goal.samples))
         throw InputError(fields ? fmt::format("--part: --method {} has no samples that could be put together", request.method.name)
@@ -151,7 +147,7 @@ int render_command(const RenderRequest& given) {
     const ChosenPixels paths = choose_pixels(request.paths, files);
     if (!paths.empty()) expect_paths(make_method(request.method));
     if (request.output.empty())
-        request.output = (std::filesystem::path("out") / std::filesystem::path(request.scene).stem()).string();
+        request.output = (std::filesystem::path("out") / std::filesystem::path(request.scene.path).stem()).string();
     std::error_code missing;
     if (!request.reference.empty() && std::filesystem::equivalent(request.reference, request.output, missing))
         throw InputError(fmt::format("-o {}: is the reference, which would be lost; expected another folder", request.output));
@@ -172,13 +168,12 @@ int render_command(const RenderRequest& given) {
     if (!request.tev.empty()) tev.emplace(request.tev, request.output, watch.tell);
     const ThreadLimit threads(threads_of_process(request.threads));
 
-    const auto scene = std::make_shared<const Scene>(read_scene(request.scene, request.definitions, {.lenient = request.lenient}));
+    const auto scene = std::make_shared<const Scene>(read_scene(request.scene));
     for (const Vec2& p : paths.pixels) pixel_number(scene->film, static_cast<int>(p.x), static_cast<int>(p.y), "--paths");
     catch_interrupts();  // nothing was written before
     std::optional<OutputFolder> folder(std::in_place, request.output, "render");
     std::optional<RenderState> state = read_state(request, *scene, watch.tell);
-    const auto crew = launched_crew(
-        {std::filesystem::absolute(request.scene).string(), request.definitions, request.lenient, scene->hash}, request.threads);
+    const auto crew = launched_crew(request.scene, *scene, request.threads);
     const double reading_seconds = clock.seconds();
     ProgressLine line(request.quiet);
     watch.crew = crew.get();
@@ -198,7 +193,7 @@ int render_command(const RenderRequest& given) {
                             "--files",
                             bounces, bytes * 1e-6, request.output));
     };
-    Checkpoints checkpoints(*folder, {request.options, scene->hash}, "neumann render --resume " + request.output,
+    Checkpoints checkpoints(*folder, {as_json(render_options(), request), scene->hash}, "neumann render --resume " + request.output,
                             request.checkpoint, !request.resume.empty() || request.goal.part, watch.tell);
     PageSoFar page_so_far(*folder);
     Viewers viewers = live || tev ? asked_for({}) : viewers_of_files(*scene, *folder, files, request.goal.bounces, page_so_far);

@@ -18,7 +18,10 @@ using Json = nlohmann::ordered_json;
 
 // The sample that is asked for, and why it was named.
 ReportedSample choose(const ReplayRequest& request, const RecordedRun& run, const Film& film) {
-    if (!request.number) return {{pixel_number(film, request.pixel[0], request.pixel[1], "--pixel"), *request.sample}, ""};
+    if (!request.number)
+        return {{pixel_number(film, static_cast<int>((*request.pixel)[0]), static_cast<int>((*request.pixel)[1]), "--pixel"),
+                 *request.sample},
+                ""};
     const std::vector<ReportedSample> named = reported_samples(run, film);
     if (*request.number <= named.size()) return named[*request.number - 1];
     throw InputError(
@@ -52,7 +55,7 @@ void print(const ReplayedStep& s, const Scene& scene, bool first_unsound) {
 }  // namespace
 
 int replay_command(const ReplayRequest& request) {
-    if (!request.number && request.pixel.empty())
+    if (!request.number && !request.pixel)
         throw InputError("which sample? Take N, the number of one that the health report names, or --pixel X,Y --sample S");
     const RecordedRun run = read_recorded_run(request.folder);
     const Scene scene = read_scene_of(run);

@@ -168,7 +168,6 @@ namespace {
 
 int solve_and_print(const SolveRequest& request, Processes* processes) {
     // These throw before anything is read.
-    channel_number(request.channel);
     if (request.petsc) require_petsc();
     catch_interrupts();
     const PatchScene scene = processes ? PatchScene(request.patches, *processes, "") : PatchScene(request.patches);

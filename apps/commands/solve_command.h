@@ -5,20 +5,10 @@
 #include "operators/fields/matrix/channel_choice.h"
 #include "operators/solvers/side_by_side.h"
 
-#include <optional>
 #include <string>
 #include <vector>
 
 namespace neumann {
-
-struct SolveRequest {
-    PatchOptions patches;
-    std::string channel;  // r, g, b; empty: the one with the largest spectral radius
-    double tolerance = 1e-6;
-    int most = 10000;  // largest number of applications of K
-    bool csv = false;
-    std::optional<std::string> petsc;  // PETSc's options; empty: a few kinds
-};
 
 struct SolvedScene {
     ChosenChannel chosen;

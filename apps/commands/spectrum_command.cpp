@@ -36,7 +36,6 @@ namespace {
 
 int find_and_print(const SpectrumRequest& request, Processes* processes) {
     if (request.petsc) require_petsc();  // throws before anything is read
-    channel_number(request.channel);
     catch_interrupts();
     ProgressLine line(request.patches.quiet);
     line.show([] { return std::string("tracing T"); });

@@ -5,20 +5,9 @@
 #include "operators/fields/matrix/scene_spectrum.h"
 
 #include <functional>
-#include <optional>
 #include <string>
 
 namespace neumann {
-
-struct SpectrumRequest {
-    PatchOptions patches;
-    std::string channel;  // r, g, b; empty: all
-    int eigenvalues = 4;
-    double seconds = 60.0;
-    int most = 10000;  // largest number of applications of K in a search
-    bool csv = false;
-    std::optional<std::string> petsc;  // SLEPc's options
-};
 
 // scene_spectrum() with the warnings of the scene. Calls `tell` with the progress from time to time; Ctrl-C stops it.
 SceneSpectrum spectrum_of(

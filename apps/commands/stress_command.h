@@ -1,19 +1,10 @@
 // `neumann stress`: runs all test cases with known answers.
 #pragma once
 
+#include "apps/requests/stress_request.h"
 #include "operators/experiments/known/cases.h"
 
-#include <cstdint>
-#include <string>
-
 namespace neumann {
-
-struct StressRequest {
-    std::string only;  // part of the cases' names; empty: all cases
-    std::uint64_t seed = known::default_seed;
-    int threads = 0;  // 0: all
-    bool list = false, json = false;
-};
 
 // All cases: those of operators/experiments/known, and those that need files.
 known::Cases stress_cases();

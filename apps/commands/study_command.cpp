@@ -1,6 +1,5 @@
 #include "apps/commands/study_command.h"
 
-#include "apps/commands/parse_definitions.h"
 #include "apps/output/files/json_text.h"
 #include "apps/output/files/output_folder.h"
 #include "apps/output/study/study_runs.h"
@@ -9,7 +8,6 @@
 #include "core/base/interrupt.h"
 #include "core/base/limits.h"
 #include "core/base/stopwatch.h"
-#include "core/reader/read_scene.h"
 #include "operators/experiments/study/methods_for_scene.h"
 #include "operators/experiments/study/reference_choice.h"
 #include "operators/experiments/study/repeats.h"
@@ -29,13 +27,13 @@ namespace neumann {
 namespace {
 
 // Throws InputError where one is unknown, given twice, or there is none.
-std::vector<StudyMethod> study_methods(const StudyRequest& request) {
+std::vector<StudyMethod> study_methods(const StudyRequest& request, const std::map<std::string, OwnEstimator>& own) {
     std::vector<StudyMethod> methods;
     for (const std::string& name : request.methods) {
         if (std::any_of(methods.begin(), methods.end(), [&](const StudyMethod& m) { return m.name == name; }))
             throw InputError(fmt::format("--methods: '{}' is given twice", name));
-        if (const auto own = request.own.find(name); own != request.own.end()) {
-            methods.push_back({name, method::Walk{}, own->second});
+        if (const auto found = own.find(name); found != own.end()) {
+            methods.push_back({name, method::Walk{}, found->second});
             continue;
         }
         try {
@@ -88,7 +86,7 @@ void expect_growing(const char* option, const auto& values) {
 Json identity(const StudyRequest& request, const Scene& scene) {
     Json json;
     json["scene"] = scene.hash;
-    json["definitions"] = request.definitions;
+    json["definitions"] = request.scene.definitions;
     json["methods"] = request.methods;
     json["budgets"] = request.budgets;
     json["samples"] = request.samples;
@@ -170,10 +168,11 @@ private:
 
 }  // namespace
 
-StudyEnd run_study(StudyRequest request, const Scene& scene, double scene_seconds, const StudyStatus& status,
+StudyEnd run_study(StudyRequest request, const std::map<std::string, OwnEstimator>& own, Crew* crew, const Scene& scene,
+                   double scene_seconds, const StudyStatus& status,
                    const std::function<void(const StudyData&, const std::vector<StudiedPicture>&, const Json&)>& found) {
     expect_sense(request);
-    std::vector<StudyMethod> methods = study_methods(request);
+    std::vector<StudyMethod> methods = study_methods(request, own);
     std::vector<Crop> crops;
     for (const std::string& text : request.crops) crops.push_back(read_crop(text, scene.film));
     OutputFolder folder(request.output, "study");
@@ -183,7 +182,7 @@ StudyEnd run_study(StudyRequest request, const Scene& scene, double scene_second
         journal.expect_same(study);
         journal.plan.at("methods").get_to(request.methods);
         journal.plan.at("repeats").get_to(request.repeats);
-        methods = study_methods(request);
+        methods = study_methods(request, own);
     } else {
         folder.forget();  // of another study, whose journal was removed
     }
@@ -193,7 +192,7 @@ StudyEnd run_study(StudyRequest request, const Scene& scene, double scene_second
                                      : request.bounces ? request.bounces
                                                        : scene.bounces;
     const Pilot pilot(scene, {}, request.seed, given.value_or(0));
-    StudyData data{request, methods, scene, pilot, 0, {}, {}, scene_seconds, 0.0, true, {}, {}, {}, false};
+    StudyData data{request, methods, scene, pilot, crew, 0, {}, {}, scene_seconds, 0.0, true, {}, {}, {}, false};
     data.pilot_seconds = pilot_watch.seconds();
     data.bounces = given ? *given : default_bounces(pilot);
     auto reference = given_reference(request, scene.film, data.bounces);
@@ -206,7 +205,7 @@ StudyEnd run_study(StudyRequest request, const Scene& scene, double scene_second
         data.plan = study_plan(journal.plan, !request.samples.empty());
         journal.plan.at("left_out").get_to(data.left_out);
     } else {
-        const Watch watch{.stop = interrupted, .crew = request.crew};
+        const Watch watch{.stop = interrupted, .crew = crew};
         if (methods.empty()) {
             status("short runs that find which methods can do the scene", 0.0);
             auto found = methods_for_scene(data.bounces, request.seed, scene, pilot, watch);
@@ -232,7 +231,7 @@ StudyEnd run_study(StudyRequest request, const Scene& scene, double scene_second
         choice = journal.plan.at("choice");
         if (request.reference.empty()) request.reference = journal.plan.at("reference").at("method");
     } else if (request.reference.empty()) {
-        auto chosen = choose_reference(scene, pilot, data.bounces, {.stop = interrupted, .crew = request.crew});
+        auto chosen = choose_reference(scene, pilot, data.bounces, {.stop = interrupted, .crew = crew});
         if (!chosen) return nothing_done();
         request.reference = chosen->method;
         choice = chosen->why;
@@ -252,7 +251,7 @@ StudyEnd run_study(StudyRequest request, const Scene& scene, double scene_second
     };
     if (makes_reference) {
         tell();
-        reference = make_reference(request, data.plan.reference_samples, scene, pilot, data.bounces, folder, begin);
+        reference = make_reference(request, data.plan.reference_samples, scene, pilot, data.bounces, folder, crew, begin);
     }
     if (!reference) return {false, 0, data.runs()};
     data.reference = std::move(*reference);
@@ -287,20 +286,17 @@ StudyEnd run_study(StudyRequest request, const Scene& scene, double scene_second
 
 int study_command(const StudyRequest& given) {
     StudyRequest request = given;
-    request.definitions = parse_definitions(request.definition_texts);
     if (request.output.empty())
         request.output =
-            (std::filesystem::path("out") / (std::filesystem::path(request.scene).stem().string() + "-study")).string();
+            (std::filesystem::path("out") / (std::filesystem::path(request.scene.path).stem().string() + "-study")).string();
     expect_sense(request);
-    study_methods(request);  // before the scene is read
+    study_methods(request, {});  // before the scene is read
     const ThreadLimit threads(threads_of_process(request.threads));
 
     const Stopwatch scene_watch;
-    const Scene scene = read_scene(request.scene, request.definitions, {.lenient = request.lenient});
+    const Scene scene = read_scene(request.scene);
     catch_interrupts();
-    const auto crew = launched_crew(
-        {std::filesystem::absolute(request.scene).string(), request.definitions, request.lenient, scene.hash}, request.threads);
-    request.crew = crew.get();
+    const auto crew = launched_crew(request.scene, scene, request.threads);
     std::optional<Status> status(std::in_place, request.quiet);
     const auto show = [&](const std::string& what, double) { status->show(what); };
     const auto print = [&](const StudyData& data, const std::vector<StudiedPicture>& pictures, const Json& json) {
@@ -310,7 +306,7 @@ int study_command(const StudyRequest& given) {
         else if (!request.quiet)
             print_study(data, pictures);
     };
-    const StudyEnd end = run_study(request, scene, scene_watch.seconds(), show, print);
+    const StudyEnd end = run_study(request, {}, crew.get(), scene, scene_watch.seconds(), show, print);
     status.reset();
     if (!end.complete && !request.quiet)
         fmt::print(stderr, "Interrupted: {} of {} runs are done; the same command with --resume goes on.\n", end.done, end.runs);

@@ -1,7 +1,7 @@
 // `neumann study`: methods side by side, error against time, bounce by bounce.
 #pragma once
 
-#include "apps/output/study/study_request.h"
+#include "apps/requests/study_request.h"
 
 namespace neumann {
 

@@ -1,6 +1,5 @@
 #include "apps/commands/unbounce_command.h"
 
-#include "apps/commands/parse_definitions.h"
 #include "apps/commands/print_warnings.h"
 #include "apps/commands/progress_line.h"
 #include "apps/output/files/json_text.h"
@@ -56,7 +55,7 @@ struct Input {
 };
 
 void read_input(const UnbounceRequest& request, Input& input) {
-    const LightFolder folder = read_light_folder(request.input);
+    const LightFolder folder = read_light_folder(request.input.path);
     for (const std::string& light : folder.lights) input.pictures.names.push_back(fs::path(light).filename().string());
     input.pictures.picture = [files = folder.lights](std::size_t j) { return read_light(files[j]); };
     if (!folder.direct.empty()) input.pictures.direct = [files = folder.direct](std::size_t j) { return read_light(files[j]); };
@@ -66,7 +65,7 @@ void read_input(const UnbounceRequest& request, Input& input) {
     input.blocks = given ? given : folder.blocks;
     const std::size_t lights = folder.lights.size();
     if (given && static_cast<std::size_t>(given->first) * static_cast<std::size_t>(given->second) != lights)
-        throw InputError(fmt::format("--lights {}: {} has {} pictures", *request.lights, request.input, lights));
+        throw InputError(fmt::format("--lights {}: {} has {} pictures", *request.lights, request.input.path, lights));
     if (lights > 1 && !request.regions.empty()) {
         input.regions = read_regions(request.regions);
     } else if (lights > 1 && folder.blocks) {
@@ -75,7 +74,7 @@ void read_input(const UnbounceRequest& request, Input& input) {
     } else if (lights > 1) {
         input.regions = brightest_regions(input.pictures);
     }
-    input.json = {{"folder", request.input}};
+    input.json = {{"folder", request.input.path}};
     if (!request.regions.empty()) input.json["regions"] = request.regions;
     if (!request.picture.empty()) input.json["picture"] = request.picture;
 }
@@ -83,12 +82,11 @@ void read_input(const UnbounceRequest& request, Input& input) {
 Scene scene_of(const UnbounceRequest& request) {
     if (!request.picture.empty() || !request.regions.empty())
         throw InputError(fmt::format("--{} is for a folder of pictures, and {} is not a folder",
-                                     request.picture.empty() ? "regions" : "picture", request.input));
-    return read_scene(request.input, parse_definitions(request.definitions), {.lenient = request.lenient});
+                                     request.picture.empty() ? "regions" : "picture", request.input.path));
+    return read_scene(request.input);
 }
 
 void render_input(const UnbounceRequest& request, const Scene& scene, const Watch& watch, ProgressLine& line, Input& input) {
-    const auto definitions = parse_definitions(request.definitions);
     const Blocks blocks = blocks_of(request.lights).value_or(default_blocks);
     print_warnings(scene.replaced, request.quiet);
     const int width = request.width > 0 ? request.width : std::max(std::min(scene.film.width, default_width), blocks.first);
@@ -105,7 +103,7 @@ void render_input(const UnbounceRequest& request, const Scene& scene, const Watc
     input.regions = renders.parts.regions;
     input.forward = renders.forward;
     input.blocks = blocks;
-    input.json = {{"scene", scene_json(scene, request.input, definitions)},
+    input.json = {{"scene", scene_json(scene, request.input)},
                   {"blocks", {blocks.first, blocks.second}},
                   {"spp", request.samples},
                   {"seed", request.seed},
@@ -161,9 +159,9 @@ void print(const Unbounced& found, const std::vector<TermAgreement>& forward, co
 int unbounce_command(const UnbounceRequest& request) {
     blocks_of(request.lights);  // throws before anything is read
     std::error_code error;
-    const bool is_folder = fs::is_directory(request.input, error);
-    if (!is_folder && !fs::exists(request.input, error))
-        throw InputError(request.input + ": no such file or folder; expected a folder of pictures, or a scene");
+    const bool is_folder = fs::is_directory(request.input.path, error);
+    if (!is_folder && !fs::exists(request.input.path, error))
+        throw InputError(request.input.path + ": no such file or folder; expected a folder of pictures, or a scene");
     const ThreadLimit threads(request.threads);
     std::optional<Scene> scene;
     if (!is_folder) scene.emplace(scene_of(request));
@@ -172,9 +170,10 @@ int unbounce_command(const UnbounceRequest& request) {
     watch.stop = interrupted;
     ProgressLine line(request.quiet);
     const std::string output = !request.output.empty() ? request.output
-                               : is_folder             ? (fs::path(request.input) / "unbounced").string()
-                                           : (fs::path("out") / (fs::path(request.input).stem().string() + "-lights")).string();
-    if (is_folder && fs::equivalent(request.input, output, error))
+                               : is_folder
+                                   ? (fs::path(request.input.path) / "unbounced").string()
+                                   : (fs::path("out") / (fs::path(request.input.path).stem().string() + "-lights")).string();
+    if (is_folder && fs::equivalent(request.input.path, output, error))
         throw InputError(fmt::format("-o {}: holds the pictures, which would be lost; expected another folder", output));
 
     Input input;
@@ -182,7 +181,7 @@ int unbounce_command(const UnbounceRequest& request) {
     OutputFolder folder(output, "unbounce");
     if (scene) render_input(request, *scene, watch, line, input);
     if (request.direct && !input.pictures.direct)
-        throw InputError(fmt::format("--direct: {} has no pictures of direct light, direct_000.exr and so on", request.input));
+        throw InputError(fmt::format("--direct: {} has no pictures of direct light, direct_000.exr and so on", request.input.path));
 
     UnbounceSettings settings{request.bounces, request.regularisation, request.direct, {}, request.seed};
     if (input.blocks && input.blocks->first > 1 && input.blocks->second > 1)

@@ -29,8 +29,7 @@ Warnings Rendering::warnings() const {
 }
 
 std::vector<std::string> Rendering::complaints(const std::string& folder) const {
-    const auto health = health_json(series, *scene, folder);
-    return health.is_null() ? std::vector<std::string>() : health.at("complaints").get<std::vector<std::string>>();
+    return neumann::complaints(series, *scene, folder);
 }
 
 std::string page_data(const Rendering& rendering, bool is_under_way) {
@@ -64,7 +63,8 @@ WrittenRendering write_rendering(const Rendering& rendering, OutputFolder& folde
     if (files.page) {
         ExploredRun explored{json, convergence, written.exposure, std::move(packed), series.rest.has_value()};
         if (!rendering.paths.empty()) try {
-                explored.paths = paths_json(recorded_run(json, folder.path().string()), *rendering.scene, rendering.paths);
+                const RecordedRun run = recorded_run(series, rendering.request.scene, *rendering.scene, folder.path().string());
+                explored.paths = paths_json(run, *rendering.scene, rendering.paths);
             } catch (const InputError& error) {  // the render is not lost for it
                 why_no_paths = error.what();
             }

@@ -1,15 +1,15 @@
 // A finished render, and the files that `neumann render` writes for it.
 #pragma once
 
-#include "apps/output/files/chosen_files.h"
-#include "apps/output/files/chosen_pixels.h"
 #include "apps/output/files/output_folder.h"
+#include "apps/requests/chosen_files.h"
+#include "apps/requests/chosen_pixels.h"
+#include "apps/requests/render_request.h"
 #include "core/base/processes/processes.h"
 #include "operators/render/methods/bounce_series.h"
 
 #include <nlohmann/json.hpp>
 
-#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -17,9 +17,7 @@
 namespace neumann {
 
 struct Rendering {
-    std::string scene_file, command_line;
-    nlohmann::ordered_json options;  // as typed, by name; null where they were not typed
-    std::map<std::string, std::string> definitions;
+    RenderRequest request;
     std::shared_ptr<const Scene> scene;
     BounceSeries series;
     double seconds = 0.0;  // total time before writing

@@ -4,6 +4,7 @@
 #include "apps/output/files/json_number.h"
 #include "apps/output/files/method_json.h"
 #include "apps/output/files/plan_json.h"
+#include "apps/output/files/request_json.h"
 #include "apps/output/files/scene_json.h"
 #include "apps/output/files/ways_files.h"
 #include "core/geometry/ray_caster.h"
@@ -245,9 +246,9 @@ Json run_json(const Rendering& rendering, const Warnings& warnings, const std::s
     const SeriesReport& report = series.report;
     Json json;
     json["program"] = {{"name", "neumann"}, {"version", NEUMANN_VERSION}, {"ray_caster", embree_version()}};
-    json["command"] = rendering.command_line;
-    if (!rendering.options.is_null()) json["request"] = rendering.options;
-    json["scene"] = scene_json(scene, rendering.scene_file, rendering.definitions);
+    json["command"] = rendering.request.command_line;
+    json["request"] = as_json(render_options(), rendering.request);
+    json["scene"] = scene_json(scene, rendering.request.scene);
     json["picture"] = {{"width", scene.film.crop_width}, {"height", scene.film.crop_height}};
     if (scene.film.crop_x != 0 || scene.film.crop_y != 0)
         json["picture"].update({{"crop_x", scene.film.crop_x}, {"crop_y", scene.film.crop_y}});

@@ -46,9 +46,11 @@ int threads_of_process(int threads) {
                     std::max(static_cast<int>(sysconf(_SC_NPROCESSORS_ONLN)) / launched()->on_this_machine(), 1));
 }
 
-std::unique_ptr<Crew> launched_crew(const SceneOnDisk& scene, int threads) {
+std::unique_ptr<Crew> launched_crew(const SceneFile& file, const Scene& scene, int threads) {
     if (!launched()) return nullptr;
-    return std::make_unique<ProcessCrew>(*launched(), scene, threads);
+    SceneFile there = file;
+    there.path = std::filesystem::absolute(file.path).string();
+    return std::make_unique<ProcessCrew>(*launched(), SceneOnDisk{std::move(there), scene.hash}, threads);
 }
 
 }  // namespace neumann

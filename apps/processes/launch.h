@@ -33,6 +33,6 @@ Processes* launched();
 int threads_of_process(int threads);
 
 // Those that render a scene together with this process, each with so many threads; null if it was started alone.
-std::unique_ptr<Crew> launched_crew(const SceneOnDisk& scene, int threads);
+std::unique_ptr<Crew> launched_crew(const SceneFile& file, const Scene& scene, int threads);
 
 }  // namespace neumann

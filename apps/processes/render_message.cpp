@@ -11,14 +11,7 @@ namespace neumann {
 using Json = nlohmann::ordered_json;
 
 Json as_json(const RenderMessage& message) {
-    const RecordedRender& render = message.render;
-    Json json = {{"scene", as_json(message.scene)},
-                 {"threads", message.threads},
-                 {"options", as_json(render.method)},
-                 {"seed", render.seed},
-                 {"bounces", render.bounces},
-                 {"rest_probability", render.rest_probability},
-                 {"replicate_size", render.replicate_size}};
+    Json json = {{"scene", as_json(message.scene)}, {"threads", message.threads}, {"render", as_json(message.render)}};
     if (const auto& m = message.colors)
         for (int column = 0; column < 3; ++column)
             for (int row = 0; row < 3; ++row) json["colors"].push_back((*m)[column][row]);
@@ -26,11 +19,7 @@ Json as_json(const RenderMessage& message) {
 }
 
 RenderMessage render_message_from(const Json& json) {
-    RenderMessage message{scene_from(json.at("scene")),
-                          json.at("threads"),
-                          {method_from_json(json.at("options")), json.at("seed"), json.at("bounces"), json.at("rest_probability"),
-                           json.at("replicate_size")},
-                          {}};
+    RenderMessage message{scene_from(json.at("scene")), json.at("threads"), recorded_render_from_json(json.at("render")), {}};
     if (json.contains("colors")) {
         message.colors.emplace();
         for (int column = 0; column < 3; ++column)

@@ -1,19 +1,17 @@
 // A scene as every process finds it on its disk.
 #pragma once
 
+#include "apps/requests/scene_file.h"
 #include "core/scene/scene.h"
 
 #include <nlohmann/json.hpp>
 
-#include <map>
 #include <string>
 
 namespace neumann {
 
 struct SceneOnDisk {
-    std::string path;  // absolute
-    std::map<std::string, std::string> definitions;
-    bool lenient = false;
+    SceneFile file;  // its path is absolute
     std::string hash;
     bool operator==(const SceneOnDisk&) const = default;
 };

@@ -42,8 +42,8 @@ py::tuple as_tuple(const Blame& found, const Scene& scene) {
 }
 
 std::unique_ptr<Job> start(const std::shared_ptr<LoadedScene>& loaded, const Arrays& pictures, const Arrays& again,
-                           const std::vector<std::string>& arguments) {
-    const BlameRequest request = parse<BlameRequest>("blame", add_blame, *loaded, arguments);
+                           const Keywords& keywords) {
+    const BlameRequest request = request_of(blame_options(), *loaded, keywords);
     return std::make_unique<Job>(
         request.threads,
         [loaded, theirs = depth_pictures(pictures, again), settings = blame_settings(request)](Job& job) -> Job::Finish {
@@ -58,7 +58,7 @@ std::unique_ptr<Job> start(const std::shared_ptr<LoadedScene>& loaded, const Arr
 }  // namespace
 
 void bind_blame(py::module_& m) {
-    m.def("blame", &start, py::arg("scene"), py::arg("pictures"), py::arg("again"), py::arg("arguments"));
+    m.def("blame", &start, py::arg("scene"), py::arg("pictures"), py::arg("again"), py::arg("keywords"));
 }
 
 }  // namespace neumann

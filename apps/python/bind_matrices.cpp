@@ -13,10 +13,8 @@ namespace neumann {
 
 namespace {
 
-std::unique_ptr<Job> start_spectrum(const std::shared_ptr<LoadedScene>& loaded, const std::vector<std::string>& arguments) {
-    SpectrumRequest request = parse<SpectrumRequest>("spectrum", add_spectrum, *loaded, arguments);
-    channel_number(request.channel);  // throws before anything is traced
-    request.patches.command_line = command_line("spectrum", *loaded, arguments);
+std::unique_ptr<Job> start_spectrum(const std::shared_ptr<LoadedScene>& loaded, const Keywords& keywords) {
+    SpectrumRequest request = request_of(spectrum_options(), *loaded, keywords);
     return std::make_unique<Job>(request.patches.threads, [loaded, request](Job& job) -> Job::Finish {
         job.tell("tracing T and looking for eigenvalues");
         const auto scene = patch_scene(*loaded, request.patches);
@@ -37,10 +35,8 @@ std::unique_ptr<Job> start_spectrum(const std::shared_ptr<LoadedScene>& loaded, 
     });
 }
 
-std::unique_ptr<Job> start_solve(const std::shared_ptr<LoadedScene>& loaded, const std::vector<std::string>& arguments) {
-    SolveRequest request = parse<SolveRequest>("solve", add_solve, *loaded, arguments);
-    channel_number(request.channel);  // throws before anything is traced
-    request.patches.command_line = command_line("solve", *loaded, arguments);
+std::unique_ptr<Job> start_solve(const std::shared_ptr<LoadedScene>& loaded, const Keywords& keywords) {
+    SolveRequest request = request_of(solve_options(), *loaded, keywords);
     return std::make_unique<Job>(request.patches.threads, [loaded, request](Job& job) -> Job::Finish {
         job.tell("solving L = Le + K L by all solvers");
         const auto scene = patch_scene(*loaded, request.patches);
@@ -56,8 +52,8 @@ std::unique_ptr<Job> start_solve(const std::shared_ptr<LoadedScene>& loaded, con
 }  // namespace
 
 void bind_matrices(py::module_& m) {
-    m.def("spectrum", &start_spectrum, py::arg("scene"), py::arg("arguments"));
-    m.def("solve", &start_solve, py::arg("scene"), py::arg("arguments"));
+    m.def("spectrum", &start_spectrum, py::arg("scene"), py::arg("keywords"));
+    m.def("solve", &start_solve, py::arg("scene"), py::arg("keywords"));
 }
 
 }  // namespace neumann

@@ -25,9 +25,9 @@ struct Patched {
 };
 using Shared = std::shared_ptr<const Patched>;
 
-std::unique_ptr<Job> start_patched(const std::shared_ptr<LoadedScene>& loaded, const std::vector<std::string>& arguments) {
-    SolveRequest request = parse<SolveRequest>("solve", add_solve, *loaded, arguments);
-    const std::optional<int> given = channel_number(request.channel);  // throws before anything is traced
+std::unique_ptr<Job> start_patched(const std::shared_ptr<LoadedScene>& loaded, const Keywords& keywords) {
+    SolveRequest request = request_of(solve_options(), *loaded, keywords);
+    const std::optional<int> given = channel_number(request.channel);
     return std::make_unique<Job>(request.patches.threads, [loaded, request, given](Job& job) -> Job::Finish {
         job.tell("tracing T");
         auto patched = std::make_shared<Patched>();
@@ -128,7 +128,7 @@ void bind_patched(py::module_& m) {
         .def_property_readonly("width", [](const Patched& p) { return p.scene->scene().film.crop_width; })
         .def("camera", &start_camera, py::arg("samples"), py::arg("seed"))
         .def("quadrilaterals", &quadrilaterals);
-    m.def("patched", &start_patched, py::arg("scene"), py::arg("arguments"));
+    m.def("patched", &start_patched, py::arg("scene"), py::arg("keywords"));
 }
 
 }  // namespace neumann

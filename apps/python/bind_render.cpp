@@ -39,11 +39,9 @@ Saving keeping(std::optional<RenderState>& state) {
 }
 
 // `live`: a page that fills meanwhile, or null.
-std::unique_ptr<Job> start(const std::shared_ptr<LoadedScene>& loaded, const std::vector<std::string>& arguments,
+std::unique_ptr<Job> start(const std::shared_ptr<LoadedScene>& loaded, const Keywords& keywords,
                            const std::shared_ptr<LivePage>& live) {
-    RenderRequest request = parse<RenderRequest>("render", add_render, *loaded, arguments);
-    request.definitions = loaded->definitions;
-    request.command_line = command_line("render", *loaded, arguments);
+    RenderRequest request = request_of(render_options(), *loaded, keywords);
     request.quiet = true;
     return std::make_unique<Job>(request.threads, [loaded, request, live](Job& job) -> Job::Finish {
         Watch watch;
@@ -146,7 +144,7 @@ void bind_render(py::module_& m) {
         .def(py::init([] { return std::make_shared<LivePage>(std::uint16_t{0}); }))
         .def("expect", &LivePage::expect, "A browser will ask for it, and the end of the render waits for that, for some seconds.")
         .def_property_readonly("address", &LivePage::address, "http://127.0.0.1:…/, on this machine alone.");
-    m.def("render", &start, py::arg("scene"), py::arg("arguments"), py::arg("live"));
+    m.def("render", &start, py::arg("scene"), py::arg("keywords"), py::arg("live"));
     m.def("merge", &start_merge, py::arg("a"), py::arg("b"));
 }
 

@@ -1,9 +1,9 @@
 // Reads scenes and returns information about them.
-#include "apps/command_line/scenes_along.h"
 #include "apps/commands/print_warnings.h"
 #include "apps/output/files/json_text.h"
 #include "apps/output/files/plan_json.h"
 #include "apps/python/module.h"
+#include "apps/requests/scenes_along.h"
 #include "core/base/stopwatch.h"
 #include "core/geometry/ray_caster.h"
 #include "operators/render/methods/method_plan.h"
@@ -20,8 +20,8 @@ Loaded load(LoadedScene scene) {
     const Stopwatch watch;
     auto loaded = std::make_shared<LoadedScene>(std::move(scene));
     try {
-        loaded->scene = std::make_shared<const Scene>(
-            make_scene(read_scene_parts(loaded->path, loaded->definitions, {.lenient = loaded->lenient}, loaded->changes)));
+        loaded->scene = std::make_shared<const Scene>(make_scene(
+            read_scene_parts(loaded->file.path, loaded->file.definitions, {.lenient = loaded->file.lenient}, loaded->changes)));
     } catch (const UnknownError& e) {
         throw InputError(std::string(e.what()) + "\nlenient=True takes the scene without what is not known");
     }
@@ -67,12 +67,12 @@ Loaded load_elements(const std::string& name, const py::tuple& root, const std::
             mesh_of(arrays[0].cast<Rows>(), arrays[1].cast<py::array_t<std::uint32_t, py::array::c_style>>(),
                     arrays[2].cast<Rows>(), arrays[3].cast<Rows>());
     const py::gil_scoped_release without_lock;
-    return load({name, {}, lenient, {raw, {}}});
+    return load({{name, {}, lenient}, {raw, {}}});
 }
 
 // `edits`: (name, tag, value), as reader::Edit; one of the same name is replaced.
 Loaded edited(const LoadedScene& scene, const std::vector<std::tuple<std::string, std::string, std::string>>& edits) {
-    LoadedScene changed{scene.path, scene.definitions, scene.lenient, scene.changes};
+    LoadedScene changed{scene.file, scene.changes};
     for (const auto& [name, tag, value] : edits) {
         std::erase_if(changed.changes.edits, [&](const reader::Edit& e) { return e.name == name; });
         changed.changes.edits.push_back({name, tag, value});
@@ -87,10 +87,10 @@ void bind_scene(py::module_& m) {
     py::class_<LoadedScene, std::shared_ptr<LoadedScene>>(m, "Scene", "A scene as its files were when it was read.")
         .def_property_readonly("path",
                                [](const LoadedScene& s) {  // bytes that are no UTF-8 as Python has them in names of files
-                                   return py::reinterpret_steal<py::str>(
-                                       PyUnicode_DecodeFSDefaultAndSize(s.path.data(), static_cast<py::ssize_t>(s.path.size())));
+                                   return py::reinterpret_steal<py::str>(PyUnicode_DecodeFSDefaultAndSize(
+                                       s.file.path.data(), static_cast<py::ssize_t>(s.file.path.size())));
                                })
-        .def_readonly("definitions", &LoadedScene::definitions)
+        .def_property_readonly("definitions", [](const LoadedScene& s) { return s.file.definitions; })
         .def_property_readonly("edits",
                                [](const LoadedScene& s) {
                                    std::vector<std::pair<std::string, std::string>> edits;
@@ -119,7 +119,7 @@ void bind_scene(py::module_& m) {
     m.def(
         "load",
         [](const std::string& path, const std::map<std::string, std::string>& definitions, bool lenient) {
-            return load({scene_along(path), definitions, lenient});
+            return load({{scene_along(path), definitions, lenient}});
         },
         py::arg("path"), py::arg("definitions"), py::arg("lenient"), py::call_guard<py::gil_scoped_release>());
     m.def("load_elements", &load_elements, py::arg("name"), py::arg("root"), py::arg("meshes"), py::arg("text"),

@@ -36,20 +36,20 @@ OwnEstimator estimator_of(const py::object& function) {
     };
 }
 
-// `own`: the functions of estimator_of() by names that the arguments have among the methods.
-std::unique_ptr<Job> start(const std::shared_ptr<LoadedScene>& loaded, const std::vector<std::string>& arguments,
+// `own`: the functions of estimator_of() by names that are among the methods.
+std::unique_ptr<Job> start(const std::shared_ptr<LoadedScene>& loaded, const Keywords& keywords,
                            const std::map<std::string, py::object>& own) {
-    StudyRequest request = parse<StudyRequest>("study", add_study, *loaded, arguments);
-    request.definitions = loaded->definitions;
-    request.command_line = command_line("study", *loaded, arguments);
+    StudyRequest request = request_of(study_options(), *loaded, keywords);
     request.quiet = true;
-    for (const auto& [name, function] : own) request.own[name] = estimator_of(function);
-    return std::make_unique<Job>(request.threads, [loaded, request](Job& job) -> Job::Finish {
+    std::map<std::string, OwnEstimator> estimators;
+    for (const auto& [name, function] : own) estimators[name] = estimator_of(function);
+    return std::make_unique<Job>(request.threads, [loaded, request, estimators](Job& job) -> Job::Finish {
         job.tell("measuring how fast the methods are, and making a reference");
         std::string csv, json;
         std::vector<std::string> warnings;
         const StudyEnd end = run_study(
-            request, *loaded->scene, loaded->seconds, [&](const std::string& what, double fraction) { job.tell(what, fraction); },
+            request, estimators, nullptr, *loaded->scene, loaded->seconds,
+            [&](const std::string& what, double fraction) { job.tell(what, fraction); },
             [&](const StudyData& data, const std::vector<StudiedPicture>&, const nlohmann::ordered_json& found) {
                 csv = study_csv(data);
                 json = json_text(found);
@@ -62,6 +62,6 @@ std::unique_ptr<Job> start(const std::shared_ptr<LoadedScene>& loaded, const std
 
 }  // namespace
 
-void bind_study(py::module_& m) { m.def("study", &start, py::arg("scene"), py::arg("arguments"), py::arg("own")); }
+void bind_study(py::module_& m) { m.def("study", &start, py::arg("scene"), py::arg("keywords"), py::arg("own")); }
 
 }  // namespace neumann

@@ -58,10 +58,10 @@ PYBIND11_MODULE(_neumann, m) {
 
 namespace neumann {
 
-std::string command_line(const std::string& command, const LoadedScene& scene, const std::vector<std::string>& arguments) {
-    std::string line = "neumann " + command + " " + scene.path;
-    for (const std::string& argument : arguments) line += " " + argument;
-    for (const auto& [name, value] : scene.definitions) line += " -D " + name + "=" + value;
+std::string command_line(const LoadedScene& scene, const std::string& command, const std::vector<std::string>& words) {
+    std::string line = "neumann " + command + " " + scene.file.path;
+    for (const std::string& word : words) line += " " + word;
+    for (const auto& [name, value] : scene.file.definitions) line += " -D " + name + "=" + value;
     if (!scene.scene->replaced.empty()) line += " --lenient";
     for (const reader::Edit& edit : scene.changes.edits) line += ", edited: " + edit.name + " = " + edit.value;
     return line;
@@ -69,7 +69,7 @@ std::string command_line(const std::string& command, const LoadedScene& scene, c
 
 std::shared_ptr<const PatchScene> patch_scene(const LoadedScene& loaded, PatchOptions options) {
     options.threads = 0;  // the job limits them
-    return std::make_shared<const PatchScene>(options, loaded.scene, loaded.definitions);
+    return std::make_shared<const PatchScene>(options, loaded.scene);
 }
 
 }  // namespace neumann

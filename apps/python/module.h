@@ -1,19 +1,21 @@
 // The parts of the compiled module _neumann, and their shared helpers. The package `neumann` wraps the module.
 #pragma once
 
-#include "apps/command_line/commands.h"
 #include "apps/commands/patch_scene.h"
 #include "apps/python/job.h"
 #include "apps/python/text.h"
+#include "apps/requests/option.h"
+#include "apps/requests/scene_file.h"
 #include "core/image/pixel_estimate.h"
 #include "core/reader/changed_scene.h"
 #include "core/scene/scene.h"
 #include "operators/experiments/queries/camera_rays.h"
 #include "operators/statistics/picture_statistics.h"
 
+#include <fmt/ranges.h>
 #include <pybind11/numpy.h>
+#include <algorithm>
 
-#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -26,9 +28,7 @@ namespace py = pybind11;
 
 // A scene as its files were when it was read.
 struct LoadedScene {
-    std::string path;
-    std::map<std::string, std::string> definitions;
-    bool lenient = false;
+    SceneFile file;
     SceneChanges changes = {};
     std::shared_ptr<const Scene> scene = {};
     double seconds = 0.0;  // time to read it
@@ -64,18 +64,37 @@ Image as_image(const py::array_t<double, py::array::c_style | py::array::forceca
 // origin and direction (n, 3), length (n,), and pixel (n, 2), column and row.
 py::dict as_dict(std::span<const CameraRay> rays, std::span<const Pixel> pixels);
 
-// The equivalent command line.
-std::string command_line(const std::string& command, const LoadedScene& scene, const std::vector<std::string>& arguments);
+// Keywords as options: names with - for _, and texts.
+using Keywords = Given;
 
-// Parses keyword arguments, given as options of a command, with the command line's parser. Throws InputError with its message.
+// The command line that asks for the same.
+std::string command_line(const LoadedScene& scene, const std::string& command, const std::vector<std::string>& words);
+
+// What the keywords ask of a scene. Throws InputError, which begins with the keyword.
 template <class Request>
-Request parse(const std::string& command, CLI::App* (*add)(CLI::App&, Request&), const LoadedScene& scene,
-              const std::vector<std::string>& arguments) {
+Request request_of(const Options<Request>& options, const LoadedScene& scene, Keywords keywords) {
+    std::vector<std::string> words;
+    for (auto& [name, texts] : keywords) {
+        const Option<Request>* o = options.find(name);
+        if (!o) throw InputError(fmt::format("'{}' is no option of {}", name, options.command));
+        if (!o->comma) texts = {fmt::format("{}", fmt::join(texts, ","))};
+        words.push_back(o->spelled());
+        if (o->kind != OptionWords::Kind::flag) words.push_back(fmt::format("{}", fmt::join(texts, ",")));
+    }
     Request request;
-    std::vector<std::string> line{command};
-    line.insert(line.end(), arguments.begin(), arguments.end());
-    line.insert(line.end(), {"--", scene.path});
-    read_arguments([&](CLI::App& app) { add(app, request); }, line);
+    take(options, keywords, request, [](const OptionWords& o) {
+        std::string keyword = o.name;
+        std::ranges::replace(keyword, '-', '_');
+        return keyword;
+    });
+    const auto be_of_scene = [&](auto& its) {
+        its.scene = scene.file;
+        its.command_line = command_line(scene, options.command, words);
+    };
+    if constexpr (requires { request.patches; })
+        be_of_scene(request.patches);
+    else
+        be_of_scene(request);
     return request;
 }
 

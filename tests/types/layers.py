@@ -17,7 +17,7 @@ ROOMS = {
     "operators": "algebra pointwise solvers statistics fields paths render experiments",
     "operators/fields": "patches matrix shared",
     "operators/render": "plan from_paths from_fields report methods",
-    "apps": "manual output live processes commands command_line python",
+    "apps": "manual requests output live processes commands command_line python",
     "apps/output": "sheets files pages study",
 }
 

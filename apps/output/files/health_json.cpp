@@ -221,6 +221,19 @@ Json as_json(const EnergyBalance& power) {
             {"energy_balance", {{"on_patches", balance_json(power, "W", "replicates", replicates)}}}};
 }
 
+std::vector<std::pair<SampleName, std::string>> named_samples(const Health& health) {
+    std::vector<std::pair<SampleName, std::string>> all;
+    for (const auto& [why, bounce, place] : NamedSamples(health).all)
+        all.emplace_back(place.name, fmt::format("bounce {}: {}", bounce, why));
+    return all;
+}
+
+std::vector<std::string> complaints(const BounceSeries& series, const Scene& scene, const std::string& folder) {
+    if (const auto* fields = std::get_if<FieldRecord>(&series.record)) return complaints(fields->power);
+    const auto& health = std::get<PathRecord>(series.record).health;
+    return health ? complaints(*health, scene, folder) : std::vector<std::string>();
+}
+
 Json health_json(const BounceSeries& series, const Scene& scene, const std::string& folder) {
     if (const auto* fields = std::get_if<FieldRecord>(&series.record)) return as_json(fields->power);
     const auto& health = std::get<PathRecord>(series.record).health;

@@ -19,7 +19,11 @@ nlohmann::ordered_json as_json(const Health& health, const Scene& scene, const s
 std::vector<std::string> complaints(const EnergyBalance& power);
 nlohmann::ordered_json as_json(const EnergyBalance& power);
 
-// The health of paths or fields; null if the render was not checked.
+// The samples that a report names, in its order, and why: "bounce 3: largest share of its pixel".
+std::vector<std::pair<SampleName, std::string>> named_samples(const Health& health);
+
+// The health of paths or fields; none and null if the render was not checked.
+std::vector<std::string> complaints(const BounceSeries& series, const Scene& scene, const std::string& folder);
 nlohmann::ordered_json health_json(const BounceSeries& series, const Scene& scene, const std::string& folder);
 
 // A shape's origin: "shape 'cube' of bsdf 'diffuse', scene.xml:12:5".

@@ -25,4 +25,17 @@ Method method_from_json(const nlohmann::ordered_json& json) {
     return make_method(text);
 }
 
+nlohmann::ordered_json as_json(const RecordedRender& render) {
+    return {{"options", as_json(render.method)},
+            {"seed", render.seed},
+            {"bounces", render.bounces},
+            {"rest_probability", render.rest_probability},
+            {"replicate_size", render.replicate_size}};
+}
+
+RecordedRender recorded_render_from_json(const nlohmann::ordered_json& json) {
+    return {method_from_json(json.at("options")), json.at("seed"), json.at("bounces"), json.at("rest_probability"),
+            json.at("replicate_size")};
+}
+
 }  // namespace neumann

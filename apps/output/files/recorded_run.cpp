@@ -1,10 +1,10 @@
 #include "apps/output/files/recorded_run.h"
 
+#include "apps/output/files/health_json.h"
 #include "apps/output/files/json_text.h"
 #include "apps/output/files/method_json.h"
 #include "core/base/error.h"
 #include "core/base/input_file.h"
-#include "core/reader/read_scene.h"
 #include "operators/paths/walk/path_group.h"
 
 #include <fmt/format.h>
@@ -16,18 +16,22 @@ namespace neumann {
 
 using Json = nlohmann::ordered_json;
 
+namespace {
+
+void expect_paths(const Method& method, const std::string& folder) {
+    if (const std::string why = why_no_replay(method); !why.empty())
+        throw InputError(fmt::format("{}: --method {} has no paths to replay: {}", folder, name_of(method), why));
+}
+
 RecordedRun recorded_run(const Json& json, const std::string& folder) {
-    const Json &options = json.at("options"), &samples = json.at("samples");
+    const Json &options = json.at("options"), &samples = json.at("samples"), &scene = json.at("scene");
     RecordedRun run;
     run.folder = folder;
     RecordedRender& render = run.render;
     render.method = method_from_json(options);
-    if (const std::string why = why_no_replay(render.method); !why.empty())
-        throw InputError(fmt::format("{}: --method {} has no paths to replay: {}", folder, name_of(render.method), why));
-    run.scene = file_named_in_json(json.at("scene").at("file"));
-    json.at("scene").at("definitions").get_to(run.definitions);
-    run.lenient = json.at("scene").contains("replaced");
-    run.hash = json.at("scene").at("hash");
+    expect_paths(render.method, folder);
+    run.scene = {file_named_in_json(scene.at("file")), scene.at("definitions"), scene.contains("replaced")};
+    run.hash = scene.at("hash");
     run.version = json.at("program").at("version");
     render.seed = options.at("seed");
     render.bounces = options.at("bounces");
@@ -38,7 +42,28 @@ RecordedRun recorded_run(const Json& json, const std::string& folder) {
     if (samples.contains("merged"))
         for (const Json& range : samples.at("merged"))
             run.merged.push_back({range.at("seed"), range.at("first_replicate"), range.at("replicates")});
-    run.named = json.at("health").at("samples");
+    for (const Json& sample : json.at("health").at("samples")) {
+        const Json& pixel = sample.contains("pixel_of_path") ? sample.at("pixel_of_path") : sample.at("pixel");
+        run.named.push_back({{pixel.at(0), pixel.at(1)},
+                             sample.at("sample"),
+                             fmt::format("bounce {}: {}", sample.at("bounce").get<int>(), sample.at("why").get<std::string>())});
+    }
+    return run;
+}
+
+}  // namespace
+
+RecordedRun recorded_run(const BounceSeries& series, const SceneFile& file, const Scene& scene, const std::string& folder) {
+    expect_paths(series.method, folder);
+    const auto& paths = std::get<PathRecord>(series.record);
+    const RecordedRender render{series.method, series.seed, static_cast<int>(series.bounces()),
+                                paths.rest_probability.value_or(0.0), paths.replicate_size};
+    RecordedRun run{folder,         scene.hash,   NEUMANN_VERSION,
+                    file,           render,       paths.first_replicate * paths.replicate_size,
+                    series.samples, paths.merged, {}};
+    if (paths.health)
+        for (const auto& [name, why] : named_samples(*paths.health))
+            run.named.push_back({pixel_of(scene.film, name.pixel), name.sample, why});
     return run;
 }
 
@@ -55,13 +80,13 @@ RecordedRun read_recorded_run(const std::string& folder) {
 }
 
 Scene read_scene_of(const RecordedRun& run) {
-    if (!std::filesystem::exists(run.scene))
+    if (!std::filesystem::exists(run.scene.path))
         throw InputError(fmt::format("{}: the scene of {} is not there; the name is relative to where the render was started",
-                                     run.scene, run.folder));
-    Scene scene = read_scene(run.scene, run.definitions, {.lenient = run.lenient});
+                                     run.scene.path, run.folder));
+    Scene scene = read_scene(run.scene);
     if (scene.hash != run.hash)
-        fmt::print(stderr, "warning: {} has changed since {} was rendered: this is not the sample that was rendered\n", run.scene,
-                   run.folder);
+        fmt::print(stderr, "warning: {} has changed since {} was rendered: this is not the sample that was rendered\n",
+                   run.scene.path, run.folder);
     if (run.version != NEUMANN_VERSION)
         fmt::print(stderr, "warning: {} was rendered by version {}, and this is {}\n", run.folder, run.version, NEUMANN_VERSION);
     return scene;
@@ -77,15 +102,8 @@ std::uint32_t pixel_number(const Film& film, int x, int y, const char* option) {
 
 std::vector<ReportedSample> reported_samples(const RecordedRun& run, const Film& film) {
     std::vector<ReportedSample> all;
-    try {
-        for (const Json& sample : run.named) {
-            const Json& pixel = sample.contains("pixel_of_path") ? sample.at("pixel_of_path") : sample.at("pixel");
-            all.push_back({{pixel_number(film, pixel.at(0), pixel.at(1), "a named sample's pixel"), sample.at("sample")},
-                           fmt::format("bounce {}: {}", sample.at("bounce").get<int>(), sample.at("why").get<std::string>())});
-        }
-    } catch (const Json::exception& e) {
-        throw InputError(fmt::format("{}/run.json: its health report is damaged: {}", run.folder, e.what()));
-    }
+    for (const auto& [pixel, sample, why] : run.named)
+        all.push_back({{pixel_number(film, pixel.x, pixel.y, "a named sample's pixel"), sample}, why});
     return all;
 }
 

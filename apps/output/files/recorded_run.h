@@ -1,11 +1,11 @@
 // A render as its run.json tells it, and its samples traced again.
 #pragma once
 
+#include "apps/requests/scene_file.h"
 #include "operators/render/from_paths/rendered_series.h"
+#include "operators/render/methods/bounce_series.h"
 #include "operators/render/methods/recorded_render.h"
 #include "operators/render/report/pixel_history.h"
-
-#include <nlohmann/json.hpp>
 
 #include <cstdint>
 #include <map>
@@ -16,19 +16,23 @@
 namespace neumann {
 
 struct RecordedRun {
-    std::string folder, scene, hash, version;
-    std::map<std::string, std::string> definitions;
-    bool lenient = false;
+    std::string folder, hash, version;
+    SceneFile scene;
     RecordedRender render;
     std::uint64_t first = 0, samples = 0;  // of a part, the first is above 0
     std::vector<SeedRange> merged;         // where the samples are of several seeds
-    nlohmann::ordered_json named;          // the samples that the health report names
+    struct Named {
+        Pixel pixel;  // of its path
+        std::uint64_t sample;
+        std::string why;  // "bounce 3: the largest sample of …"
+    };
+    std::vector<Named> named;  // the samples that the health report names
 };
 
 // Throws InputError if there is no such folder or run.json, and if the method has no paths.
 RecordedRun read_recorded_run(const std::string& folder);
-// Of a run.json that is not on disk yet; `folder`: for messages.
-RecordedRun recorded_run(const nlohmann::ordered_json& run, const std::string& folder);
+// Of a render whose run.json is not on disk yet; `folder`: for messages.
+RecordedRun recorded_run(const BounceSeries& series, const SceneFile& file, const Scene& scene, const std::string& folder);
 
 // Its scene. Warns on stderr if that has changed since, or if another version rendered it.
 Scene read_scene_of(const RecordedRun& run);

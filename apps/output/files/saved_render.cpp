@@ -124,13 +124,8 @@ std::vector<Checkpoint> checkpoints_from(std::span<const double> numbers, std::s
 
 // What the header of every state tells.
 Json header_of(const RequestOnDisk& request, const RecordedRender& render, const std::optional<MethodChoice>& choice) {
-    Json header = {{"request", request.options},
-                   {"scene_hash", request.scene_hash},
-                   {"options", neumann::as_json(render.method)},
-                   {"seed", render.seed},
-                   {"bounces", render.bounces},
-                   {"rest_probability", render.rest_probability},
-                   {"replicate_size", render.replicate_size}};
+    Json header = {{"request", request.request}, {"scene_hash", request.scene_hash}};
+    header.update(neumann::as_json(render));
     if (choice) header["choice"] = as_json(*choice);
     return header;
 }
@@ -188,7 +183,7 @@ RequestOnDisk request_in(const std::filesystem::path& folder) {
     if (!file) throw InputError(folder.string() + ": holds no render that could be resumed");
     try {
         const Json json = Json::parse(file);
-        if (!json.contains("request")) throw InputError(path.string() + ": tells no options, and cannot be resumed");
+        if (!json.contains("request")) throw InputError(path.string() + ": tells no request, and cannot be resumed");
         return {json.at("request"), json.at("scene").at("hash")};
     } catch (const Json::exception& e) {
         throw InputError(fmt::format("{}: is not a run.json of this program's renders: {}", path.string(), e.what()));
@@ -199,8 +194,7 @@ RenderState read_saved_render(const std::filesystem::path& path) {
     StateFile file(path);
     const Json& header = file.header();
     try {
-        const RecordedRender render{method_from_json(header.at("options")), header.at("seed"), header.at("bounces"),
-                                    header.at("rest_probability"), header.at("replicate_size")};
+        const RecordedRender render = recorded_render_from_json(header);
         std::optional<MethodChoice> choice;
         if (header.contains("choice")) choice = choice_from(header.at("choice"));
         if (header.contains("fields")) {

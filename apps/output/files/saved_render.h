@@ -15,7 +15,7 @@ namespace neumann {
 
 // What was asked for.
 struct RequestOnDisk {
-    nlohmann::ordered_json options;  // as typed, by name
+    nlohmann::ordered_json request;  // of a render, by its options (request_json.h)
     std::string scene_hash;
 };
 

@@ -5,9 +5,8 @@
 
 namespace neumann {
 
-nlohmann::ordered_json scene_json(const Scene& scene, const std::string& file,
-                                  const std::map<std::string, std::string>& definitions) {
-    nlohmann::ordered_json json = {{"file", file}, {"hash", scene.hash}, {"definitions", definitions}};
+nlohmann::ordered_json scene_json(const Scene& scene, const SceneFile& file) {
+    nlohmann::ordered_json json = {{"file", file.path}, {"hash", scene.hash}, {"definitions", file.definitions}};
     if (!scene.replaced.empty()) json["replaced"] = scene.replaced;
     return json;
 }

@@ -1,19 +1,18 @@
 // The scene of a run, as its JSON and its pictures name it.
 #pragma once
 
+#include "apps/requests/scene_file.h"
 #include "core/scene/scene.h"
 
 #include <nlohmann/json.hpp>
 
-#include <map>
 #include <string>
 #include <vector>
 
 namespace neumann {
 
 // File, hash and definitions, and what a lenient reader replaced or left out, if anything.
-nlohmann::ordered_json scene_json(const Scene& scene, const std::string& file,
-                                  const std::map<std::string, std::string>& definitions);
+nlohmann::ordered_json scene_json(const Scene& scene, const SceneFile& file);
 
 // For pictures of a scene that a lenient reader changed: what their headers say, and what is appended to their labels; both are
 // empty for other scenes. `replaced`: Scene::replaced.

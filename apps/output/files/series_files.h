@@ -1,9 +1,9 @@
 // Writes a rendered series into the output folder.
 #pragma once
 
-#include "apps/output/files/chosen_files.h"
 #include "apps/output/files/output_folder.h"
 #include "apps/output/files/shown_series.h"
+#include "apps/requests/chosen_files.h"
 #include "core/scene/scene.h"
 #include "operators/render/methods/bounce_series.h"
 

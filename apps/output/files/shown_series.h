@@ -2,9 +2,9 @@
 // `page` reads them from its files; what is shown is the same.
 #pragma once
 
-#include "apps/output/files/chosen_files.h"
 #include "apps/output/files/output_folder.h"
 #include "apps/output/files/packed_pictures.h"
+#include "apps/requests/chosen_files.h"
 #include "operators/render/from_paths/mixture.h"
 
 #include <functional>

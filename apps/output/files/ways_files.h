@@ -1,9 +1,9 @@
 // Writes the pictures and the table of all ways (s, t) to make a bounce.
 #pragma once
 
-#include "apps/output/files/chosen_files.h"
 #include "apps/output/files/output_folder.h"
 #include "apps/output/files/rendered_folder.h"
+#include "apps/requests/chosen_files.h"
 #include "operators/render/methods/ways.h"
 
 #include <nlohmann/json.hpp>

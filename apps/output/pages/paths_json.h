@@ -1,8 +1,8 @@
 // The paths of pixels for the page: their rays on the film and from above, what they bring, and how the pixels' means came about.
 #pragma once
 
-#include "apps/output/files/chosen_pixels.h"
 #include "apps/output/files/recorded_run.h"
+#include "apps/requests/chosen_pixels.h"
 
 #include <nlohmann/json.hpp>
 

@@ -79,14 +79,14 @@ std::string study_csv(const StudyData& data) {
 
 std::string repeating_command(const StudyData& data, const StudyRun& run) {
     const Method& method = data.methods[run.method].method;
-    std::string command = fmt::format("neumann render {} -n {} --spp {} --seed {} --method {}", data.request.scene, data.bounces,
-                                      run.samples, run.seed, name_of(method));
+    std::string command = fmt::format("neumann render {} -n {} --spp {} --seed {} --method {}", data.request.scene.path,
+                                      data.bounces, run.samples, run.seed, name_of(method));
     const auto add = [&](const std::string& name, const std::string& value) { command += fmt::format(" {} {}", name, value); };
     Effort effort{run.samples};
     if (run.patches) effort.patches = run.patches;
     if (run.directions) effort.directions = static_cast<std::uint32_t>(run.directions);
     for (const auto& [name, value] : differences_of(with_effort(method, effort)).options) add("--" + name, value);
-    for (const auto& [name, value] : data.request.definitions) add("-D", name + "=" + value);
+    for (const auto& [name, value] : data.request.scene.definitions) add("-D", name + "=" + value);
     if (!data.scene.replaced.empty()) command += " --lenient";
     return command;
 }

@@ -18,6 +18,7 @@ struct StudyData {
     const std::vector<StudyMethod>& methods;
     const Scene& scene;
     const Pilot& pilot;
+    Crew* crew = nullptr;  // processes that render, too
     int bounces = 0;
     StudyPlan plan;
     StudyReference reference;
@@ -40,9 +41,11 @@ struct StudyEnd {
     bool complete;
     std::size_t done, runs;
 };
-// Runs the study in request.output, and calls `found` with the results, if there are any. Throws InputError and RunError.
+// Runs the study in request.output, and calls `found` with the results, if there are any. `own`: estimators that the methods name.
+// Throws InputError and RunError.
 StudyEnd run_study(
-    StudyRequest request, const Scene& scene, double scene_seconds, const StudyStatus& status,
+    StudyRequest request, const std::map<std::string, OwnEstimator>& own, Crew* crew, const Scene& scene, double scene_seconds,
+    const StudyStatus& status,
     const std::function<void(const StudyData&, const std::vector<StudiedPicture>&, const nlohmann::ordered_json&)>& found);
 
 std::string study_csv(const StudyData& data);

@@ -113,7 +113,7 @@ Json study_json(const StudyData& data, const std::vector<StudiedPicture>& pictur
     json["command"] = request.command_line;
     json["complete"] = data.complete;
     json["verdict"] = verdict_text(data, pictures.size() - 1, verdict_on(pictures.back(), data.fewest_repeats()));
-    json["scene"] = scene_json(data.scene, request.scene, request.definitions);
+    json["scene"] = scene_json(data.scene, request.scene);
     json["picture"] = {{"width", data.scene.film.crop_width}, {"height", data.scene.film.crop_height}};
     json["bounces"] = data.bounces;
     json["repeats"] = request.repeats;

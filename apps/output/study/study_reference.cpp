@@ -97,7 +97,7 @@ Json made_identity(const StudyRequest& request, std::uint64_t samples, const Sce
             {"width", scene.film.crop_width},
             {"height", scene.film.crop_height},
             {"scene_hash", scene.hash},
-            {"definitions", request.definitions},
+            {"definitions", request.scene.definitions},
             {"version", NEUMANN_VERSION}};
 }
 
@@ -152,7 +152,7 @@ std::optional<StudyReference> given_reference(const StudyRequest& request, const
 }
 
 std::optional<StudyReference> make_reference(const StudyRequest& request, std::uint64_t wanted, const Scene& scene,
-                                             const Pilot& pilot, int bounces, OutputFolder& folder,
+                                             const Pilot& pilot, int bounces, OutputFolder& folder, Crew* crew,
                                              const std::function<void(const Json&)>& begins) {
     const StudyMethod method = making_method(request);
     const auto described = [&](StudyReference reference, std::uint64_t samples) {
@@ -181,7 +181,7 @@ std::optional<StudyReference> make_reference(const StudyRequest& request, std::u
     const bool keeps = saving.has_room();
     if (!request.quiet) fmt::print(stderr, "Making a reference by {}, {} samples a pixel\n", request.reference, wanted);
     const auto run = run_method(method, {wanted}, bounces, study_seed(0, reference_method, 0, 0), scene, pilot,
-                                {.stop = interrupted, .crew = request.crew}, keeps ? saving.saving() : Saving());
+                                {.stop = interrupted, .crew = crew}, keeps ? saving.saving() : Saving());
     if (!run) return std::nullopt;
     StudyReference made;
     for (std::size_t i = 0; i <= static_cast<std::size_t>(bounces); ++i) made.pictures.push_back(run->term(i));

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "apps/output/files/output_folder.h"
-#include "apps/output/study/study_request.h"
+#include "apps/requests/study_request.h"
 #include "operators/experiments/study/study_plan.h"
 
 #include <nlohmann/json.hpp>
@@ -26,9 +26,9 @@ struct StudyReference {
 // size differs.
 std::optional<StudyReference> given_reference(const StudyRequest& request, const Film& film, int bounces);
 // Renders the reference with the given method, or takes it from the cache. Returns nothing if interrupted. Calls begins(identity)
-// before it is rendered; what there is of it is in the folder meanwhile.
+// before it is rendered; what there is of it is in the folder meanwhile. `crew`: processes that render, too, or null.
 std::optional<StudyReference> make_reference(const StudyRequest& request, std::uint64_t samples, const Scene& scene,
-                                             const Pilot& pilot, int bounces, OutputFolder& folder,
+                                             const Pilot& pilot, int bounces, OutputFolder& folder, Crew* crew,
                                              const std::function<void(const nlohmann::ordered_json&)>& begins);
 
 }  // namespace neumann

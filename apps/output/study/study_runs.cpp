@@ -36,7 +36,7 @@ void run_all(StudyData& data, StudyJournal& journal, OutputFolder& folder, const
         data.peak_is_of_run = restart_peak_memory();
         StudySaving saving(folder, at, data.scene, data.request);
         const auto result = run_method(data.methods[method], effort, data.bounces, seed, data.scene, data.pilot,
-                                       {.stop = interrupted, .crew = data.request.crew}, saving.saving());
+                                       {.stop = interrupted, .crew = data.crew}, saving.saving());
         if (!result) return;
         StudyRun run = study_run(*result, with_effort(data.methods[method].method, effort));
         run.peak_memory = peak_memory();

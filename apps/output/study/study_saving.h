@@ -3,7 +3,7 @@
 
 #include "apps/output/files/checkpoints.h"
 #include "apps/output/files/output_folder.h"
-#include "apps/output/study/study_request.h"
+#include "apps/requests/study_request.h"
 #include "core/scene/scene.h"
 
 #include <nlohmann/json.hpp>
@@ -18,8 +18,8 @@ public:
     // `run`: its number, or "reference".
     StudySaving(OutputFolder& folder, const nlohmann::ordered_json& run, const Scene& scene, const StudyRequest& request)
         : folder_(folder),
-          options_{{"run", run}},
-          checkpoints_(folder, {options_, scene.hash}, "the same command with --resume", request.checkpoint, false,
+          what_{{"run", run}},
+          checkpoints_(folder, {what_, scene.hash}, "the same command with --resume", request.checkpoint, false,
                        [](const std::string&) {}) {}
 
     // Whether the folder has nothing of another run.
@@ -28,12 +28,10 @@ public:
     Saving saving() { return checkpoints_.saving(is_there() ? std::optional(read_saved_render(folder_.saved())) : std::nullopt); }
 
 private:
-    bool is_there() const {
-        return std::filesystem::exists(folder_.saved()) && request_in_file(folder_.saved()).options == options_;
-    }
+    bool is_there() const { return std::filesystem::exists(folder_.saved()) && request_in_file(folder_.saved()).request == what_; }
 
     OutputFolder& folder_;
-    nlohmann::ordered_json options_;
+    nlohmann::ordered_json what_;
     Checkpoints checkpoints_;
 };
 

@@ -1,32 +1,21 @@
-"""Keywords as the options of the command, which checks them and says what is wrong."""
+"""Keywords as the options of a request, which checks them and says what is wrong."""
 
 import difflib
 import inspect
-from typing import Any, Callable, Dict, List, Mapping, TypeVar
+from typing import Any, Callable, Dict, List, Mapping, Tuple, TypeVar
 
 from ._method import Method
 from ._method_options import HELP, MethodOptions
-from ._texts import text
+from ._texts import text, texts
 
-_short = {"bounces": "-n", "threads": "-t", "output": "-o"}
 _of_scenes = ("res", "resolution", "size", "width", "height")
 _no_options = ("self", "quiet", "live", "of_method", "of_patches")
 
 
-def options(keywords: Dict[str, Any]) -> List[str]:
-    """bounces=6, direct="light" as -n6 --direct=light. None and False are left out, and what is no option."""
-    result = []
-    for name, value in keywords.items():
-        if value is None or value is False or name in _no_options:
-            continue
-        option = "--" + name.replace("_", "-")
-        if value is True:
-            result.append(option)
-        elif name in _short:
-            result.append(_short[name] + text(value))
-        else:
-            result.append(f"{option}={text(value)}")
-    return result
+def options(keywords: Dict[str, Any]) -> List[Tuple[str, List[str]]]:
+    """bounces=6, split=(2, 1) as names and texts. None and False are left out, and what is no option."""
+    given = {name: value for name, value in keywords.items() if value is not None and value is not False and name not in _no_options}
+    return [(name.replace("_", "-"), texts(value)) for name, value in given.items()]
 
 
 # The keywords of functions that take some as ``**Unpack[…]``, by the function's name.

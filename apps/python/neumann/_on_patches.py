@@ -1,6 +1,6 @@
 """What a scene is asked as a matrix: its surfaces are cut into patches for it."""
 
-from typing import Any, Dict, List, Literal, Optional, TypedDict, Unpack
+from typing import Any, Dict, List, Literal, Optional, Tuple, TypedDict, Unpack
 
 import numpy as np
 
@@ -28,7 +28,7 @@ class PatchOptions(TypedDict, total=False):
     """All without it."""
 
 
-def _arguments(keywords: Dict[str, Any], function: str) -> List[str]:
+def _asked(keywords: Dict[str, Any], function: str) -> List[Tuple[str, List[str]]]:
     """Of its locals()."""
     return options({**keywords, **checked(keywords["of_patches"], PatchOptions, function)})
 
@@ -51,7 +51,7 @@ class OnPatches:
         patches: about so many, 2000 without it. directions: rays of each side of a patch, a power of two, 64 without it. channel: r, g
         or b; without it the one that reflects most, of the largest ⟨K 1, 1⟩ / ⟨1, 1⟩. memory: GiB that may be taken. Raises InputError.
         """
-        return Matrices(run(_neumann.patched(self._scene, _arguments(locals(), "matrices")), quiet))
+        return Matrices(run(_neumann.patched(self._scene, _asked(locals(), "matrices")), quiet))
 
     @with_keywords(PatchOptions)
     def operators(
@@ -65,7 +65,7 @@ class OnPatches:
 
         Keywords as of ``matrices()``. Raises InputError.
         """
-        return Operators(run(_neumann.patched(self._scene, _arguments(locals(), "operators")), quiet))
+        return Operators(run(_neumann.patched(self._scene, _asked(locals(), "operators")), quiet))
 
     @with_keywords(PatchOptions)
     def spectrum(
@@ -87,7 +87,7 @@ class OnPatches:
         ``residuals`` (k,), ``refinement``, ``bounces_until``, ``rounding``, and ``eigenvalues_search``: its applications, its history, and
         why what it reached is not what it looked for, which is a warning, too.
         """
-        text, vectors = run(_neumann.spectrum(self._scene, _arguments(locals(), "spectrum")), quiet)
+        text, vectors = run(_neumann.spectrum(self._scene, _asked(locals(), "spectrum")), quiet)
         report = _report.from_json(text)
         for channel, columns in zip(report.channels, vectors):
             pairs = channel.eigenvalues
@@ -116,7 +116,7 @@ class OnPatches:
         Returns Reports by the solvers' names; each has x (unknowns,), or x = L − Le where ``about.unknown`` says so, verdict, why,
         applications, error to LU, history. Raises InputError.
         """
-        text, x, warnings = run(_neumann.solve(self._scene, _arguments(locals(), "solve")), quiet)
+        text, x, warnings = run(_neumann.solve(self._scene, _asked(locals(), "solve")), quiet)
         about = _report.from_json(text)
         rows = about.pop("solvers")
         for row, vector in zip(rows, x):

@@ -139,9 +139,9 @@ class Scene(RayQueries, OnPatches):
 
         The other keywords are the options of the methods:
         """
-        arguments = options({**locals(), **method_options(of_method)})
+        keywords = options({**locals(), **method_options(of_method)})
         page = Live() if live else None
-        job = _neumann.render(self._scene, arguments, page.server if page else None)
+        job = _neumann.render(self._scene, keywords, page.server if page else None)
         series: BounceSeries = run(job, quiet, lambda made: BounceSeries(Memory(made), self.path))
         if page:
             page.finish(series._source.page)
@@ -232,11 +232,11 @@ class Scene(RayQueries, OnPatches):
         own = {name_of(method): from_rays(method) for method in methods or () if callable(method)}
         if methods is not None:
             methods = [name_of(method) if callable(method) else method for method in methods]
-        arguments = options({name: value for name, value in locals().items() if name != "own"})
+        keywords = options({name: value for name, value in locals().items() if name != "own"})
         with tempfile.TemporaryDirectory() as folder:
             if output is None:
-                arguments += options({"output": folder})
-            study: Study = run(_neumann.study(self._scene, arguments, own), quiet, lambda made: Study(*made))
+                keywords += options({"output": folder})
+            study: Study = run(_neumann.study(self._scene, keywords, own), quiet, lambda made: Study(*made))
         if not quiet:
             warn(study.warnings)
         return study

@@ -1,7 +1,13 @@
-"""Values as the texts of the command's options."""
+"""Values as the texts of options."""
 
 from os import PathLike, fspath
-from typing import Any
+from typing import Any, List
+
+
+def texts(value: Any) -> List[str]:
+    """(8, 8) as 8 and 8; of any other value the only one."""
+    several = isinstance(value, (list, tuple)) or (hasattr(value, "ndim") and value.ndim > 0)
+    return [text(v) for v in value] if several else [text(value)]
 
 
 def text(value: Any) -> str:

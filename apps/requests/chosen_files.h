@@ -1,0 +1,29 @@
+// Which files a render writes beside run.json.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace neumann {
+
+struct ChosenFiles {
+    bool pictures = true;  // bounce_000.exr …, sum_000.exr …, rest.exr, way_s1_t3.exr …
+    bool tables = true;    // series.csv, convergence.csv
+    bool sheets = true;    // contact-sheet.png, bounces.gif, ways.png
+    bool strips = true;    // strip-terms.png …
+    bool page = true;      // index.html
+    bool layers = false;   // layers.exr, on request
+    bool white = false;    // sheets and strips are on white, and not on black
+};
+
+// "pictures", "tables", "sheets", "strips", "page", which are written by default; and "layers" beside them.
+const std::vector<std::string>& file_groups();
+const std::vector<std::string>& all_file_groups();
+// Those that `neumann page` makes: "tables", "sheets", "strips", "page".
+const std::vector<std::string>& page_file_groups();
+
+// Throws InputError for a name that is not one of them.
+ChosenFiles choose_files(const std::vector<std::string>& names, bool white = false);
+std::vector<std::string> names_of(const ChosenFiles& files);
+
+}  // namespace neumann

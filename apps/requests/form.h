@@ -1,0 +1,82 @@
+// How a value is written as a text, as users give it: on the command line, in Python, in files.
+#pragma once
+
+#include "operators/render/methods/named_values.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace neumann {
+
+template <class Value>
+struct Form {
+    std::function<std::optional<Value>(const std::string&)> read;  // nothing if the text is wrong
+    std::function<std::string(const Value&)> print;                // read() of it is the value
+    std::function<std::string(const std::string&)> wrong;          // what is wrong with a text that is not read, in words
+    bool is_number = false;                                        // whether the text is that of a number in JSON, too
+};
+
+inline auto not_a(std::string expected) {
+    return [expected = std::move(expected)](const std::string& text) { return fmt::format("'{}' is not {}", text, expected); };
+}
+
+template <class Number>
+std::optional<Number> number_in(const std::string& text) {
+    Number value{};
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    return error == std::errc() && end == text.data() + text.size() ? std::optional(value) : std::nullopt;
+}
+
+inline Form<std::string> any_text() {
+    const auto as_it_is = [](const std::string& text) { return text; };
+    return {as_it_is, as_it_is, [](const std::string&) { return std::string(); }};
+}
+
+inline Form<std::string> one_of(std::vector<std::string> words) {
+    Form<std::string> form = any_text();
+    form.read = [words](const std::string& text) {
+        return std::find(words.begin(), words.end(), text) != words.end() ? std::optional(text) : std::nullopt;
+    };
+    form.wrong = [words](const std::string& text) { return not_in(text, words); };
+    return form;
+}
+
+template <class Number = std::uint64_t>
+Form<Number> whole_from(std::uint64_t low, std::uint64_t high) {
+    const auto read = [=](const std::string& text) -> std::optional<Number> {
+        const auto n = number_in<std::uint64_t>(text);
+        return n && *n >= low && *n <= high ? std::optional(static_cast<Number>(*n)) : std::nullopt;
+    };
+    return {read, [](const Number& n) { return fmt::format("{}", n); },
+            not_a(fmt::format("a whole number from {} to {}", low, high)), true};
+}
+
+inline Form<double> real(std::function<bool(double)> fits, std::string expected) {
+    const auto read = [=](const std::string& text) {
+        const auto x = number_in<double>(text);
+        return x && std::isfinite(*x) && fits(*x) ? x : std::nullopt;
+    };
+    return {read, [](const double& x) { return fmt::format("{}", x); }, not_a(std::move(expected)), true};
+}
+
+inline Form<double> above_zero() {
+    return real([](double x) { return x > 0.0; }, "a number above 0");
+}
+
+// Two whole numbers with a sign between them: "3/16", "19,160".
+inline std::optional<std::array<std::int64_t, 2>> two_whole(const std::string& text, char sign) {
+    const std::size_t between = text.find(sign);
+    if (between == text.npos) return std::nullopt;
+    const auto a = number_in<std::int64_t>(text.substr(0, between)), b = number_in<std::int64_t>(text.substr(between + 1));
+    return a && b ? std::optional(std::array{*a, *b}) : std::nullopt;
+}
+
+}  // namespace neumann
