@@ -109,6 +109,9 @@ int main(int argc, char** argv) try {
 } catch (const neumann::UnknownError& e) {
     complain(std::string(e.what()) + "\n--lenient takes the scene without what is not known");
     return wrong_input;
+} catch (const neumann::OptionError& e) {
+    complain(std::string("--") + e.what());
+    return wrong_input;
 } catch (const neumann::InputError& e) {
     complain(e.what());
     return wrong_input;

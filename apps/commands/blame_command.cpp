@@ -84,7 +84,7 @@ std::vector<DepthPicture> read_pictures(const BlameRequest& request) {
 Counting counting_of(const std::string& name) {
     for (const Counting counting : {Counting::bounces, Counting::mitsuba, Counting::pbrt, Counting::cycles})
         if (name == name_of(counting)) return counting;
-    throw InputError("--counts " + name + ": expected mitsuba, pbrt, cycles or bounces");
+    throw OptionError("counts", " " + name + ": expected mitsuba, pbrt, cycles or bounces");
 }
 
 void print_places(const std::vector<WorstPlace>& places, const Scene& scene) {

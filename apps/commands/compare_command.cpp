@@ -238,7 +238,7 @@ nlohmann::ordered_json json_of(const std::string& a, const std::string& b, const
 }  // namespace
 
 int compare_command(const CompareRequest& request) {
-    const auto& [a, b, output, json, more, flip] = request;
+    const auto& [a, b, output, more, flip, json] = request;
     const bool a_is_folder = is_folder(a), b_is_folder = is_folder(b);
     if (a_is_folder != b_is_folder) {
         throw InputError(fmt::format("{} and {}: a folder against a picture", a_is_folder ? a : b, a_is_folder ? b : a));

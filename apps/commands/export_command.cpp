@@ -90,7 +90,7 @@ void check_matrix_memory(const PatchOptions& options, const TracedSystem& system
     if (rays > fitting)
         throw InputError(fmt::format(
             "{}: the matrices of {} patches of {} rays are too large to export; at most {:.0f} patches of as many rays fit",
-            options.scene, system.space().patches().size(), options.rays,
+            options.scene.path, system.space().patches().size(), options.rays,
             fitting / rays * static_cast<double>(system.space().patches().size())));
 }
 
@@ -108,9 +108,9 @@ std::string patches_table(const PatchSpace& space) {
 
 int export_command(const ExportRequest& request) {
     catch_interrupts();
-    const std::string output = request.output.empty()
-                                   ? (fs::path("out") / (fs::path(request.patches.scene).stem().string() + "-matrices")).string()
-                                   : request.output;
+    const std::string output =
+        request.output.empty() ? (fs::path("out") / (fs::path(request.patches.scene.path).stem().string() + "-matrices")).string()
+                               : request.output;
     const PatchScene scene(request.patches);
     const TracedSystem& system = scene.traced();
     check_matrix_memory(request.patches, system);

@@ -47,7 +47,7 @@ std::unique_ptr<RowFiles> open_rows(const PatchOptions& options, const Scene& sc
     double one_is_wrong[] = {wrong ? 1.0 : 0.0};
     if (processes) processes->largest(one_is_wrong);
     if (wrong) std::rethrow_exception(wrong);
-    if (one_is_wrong[0] > 0.0) throw InputError(fmt::format("--keep {}: another process cannot use this folder", *options.keep));
+    if (one_is_wrong[0] > 0.0) throw OptionError("keep", fmt::format("{}: another process cannot use this folder", *options.keep));
     return rows;
 }
 

@@ -52,9 +52,9 @@ Viewers viewers_of_files(const Scene& scene, const OutputFolder& folder, const C
 
 void expect_paths(const Method& method) {
     if (const auto* chosen = std::get_if<method::Auto>(&method); chosen && chosen->bias_allowed)
-        throw InputError("--paths: --bias-allowed may choose fields on patches, which have no paths; take one of the two");
+        throw OptionError("paths", ": --bias-allowed may choose fields on patches, which have no paths; take one of the two");
     if (const std::string why = why_no_replay(method); !why.empty())
-        throw InputError(fmt::format("--paths: --method {} has no paths to replay: {}", name_of(method), why));
+        throw OptionError("paths", fmt::format(": {} has no paths to replay: {}", name_of(method), why));
 }
 
 void expect_nothing_unfinished(const std::string& folder) {
@@ -70,15 +70,15 @@ std::optional<RenderState> read_state(const RenderRequest& request, const Scene&
                                       const std::function<void(const std::string&)>& tell) {
     if (request.resume.empty()) return std::nullopt;
     if (scene.hash != request_in(request.resume).scene_hash)
-        throw InputError(fmt::format("--resume {}: {} is not the scene that it began with, or has changed since", request.resume,
-                                     request.scene.path));
+        throw OptionError("resume", fmt::format("{}: {} is not the scene that it began with, or has changed since", request.resume,
+                                                request.scene.path));
     const auto file = saved_render_in(request.resume);
     if (!file) return std::nullopt;
     RenderState state = read_saved_render(*file);
     if (state.fields) return state;
     if (!state.series.merged.empty())
-        throw InputError(
-            fmt::format("--resume {}: was merged of several seeds; render another seed and merge that, too", request.resume));
+        throw OptionError("resume",
+                          fmt::format("{}: was merged of several seeds; render another seed and merge that, too", request.resume));
     const std::uint64_t there = state.series.samples;
     const SeriesMoments& moments = state.series.moments;
     if (moments.width() != scene.film.crop_width || moments.height() != scene.film.crop_height)
@@ -86,7 +86,7 @@ std::optional<RenderState> read_state(const RenderRequest& request, const Scene&
     if (const auto& samples = request.goal.samples) {
         const std::uint64_t whole = in_whole_replicates(*samples);
         if (whole < there)
-            throw InputError(fmt::format("--spp {}: {} has {} samples a pixel already", *samples, request.resume, there));
+            throw OptionError("spp", fmt::format("{}: {} has {} samples a pixel already", *samples, request.resume, there));
         if (const std::uint32_t wanted = replicate_size(whole); wanted != state.render.replicate_size) {
             tell(fmt::format(
                 "The {} samples a pixel of {} are in replicates of {}, and {} are better in replicates of {}: it begins anew",
@@ -141,7 +141,7 @@ int render_command(const RenderRequest& given) {
     RenderRequest request = given;
     const bool fields = has_fields(make_method(request.method));  // refuses what does not go together, before the scene is read
     if (request.goal.part && (fields || !request.goal.samples))
-        throw InputError(fields ? fmt::format("--part: --method {} has no samples that could be put together", request.method.name)
+        throw InputError(fields ? fmt::format("--part: {} has no samples that could be put together", request.method.name)
                                 : std::string("--part needs --spp, the samples of all parts"));
     const ChosenFiles files = choose_files(request.files, request.theme == "white");
     const ChosenPixels paths = choose_pixels(request.paths, files);

@@ -136,8 +136,8 @@ std::vector<const Case*> chosen(const known::Cases& all, const std::string& only
     std::string groups;
     for (const Case& known : all)
         if (const std::string group = known.group(); !groups.ends_with(group)) groups += (groups.empty() ? "" : ", ") + group;
-    throw InputError(
-        fmt::format("--only {}: no case has such a name; there are the groups {}, and --list shows all names", only, groups));
+    throw OptionError(
+        "only", fmt::format("{}: no case has such a name; there are the groups {}, and --list shows all names", only, groups));
 }
 
 }  // namespace

@@ -31,7 +31,7 @@ std::vector<StudyMethod> study_methods(const StudyRequest& request, const std::m
     std::vector<StudyMethod> methods;
     for (const std::string& name : request.methods) {
         if (std::any_of(methods.begin(), methods.end(), [&](const StudyMethod& m) { return m.name == name; }))
-            throw InputError(fmt::format("--methods: '{}' is given twice", name));
+            throw OptionError("methods", fmt::format(": '{}' is given twice", name));
         if (const auto found = own.find(name); found != own.end()) {
             methods.push_back({name, method::Walk{}, found->second});
             continue;
@@ -39,7 +39,7 @@ std::vector<StudyMethod> study_methods(const StudyRequest& request, const std::m
         try {
             methods.push_back({name, studied_method(name)});
         } catch (const InputError& e) {
-            throw InputError(fmt::format("--methods {}", e.what()));
+            throw OptionError("methods", fmt::format("{}", e.what()));
         }
     }
     return methods;
@@ -59,8 +59,8 @@ Crop read_crop(const std::string& text, const Film& film) {
     const auto [x, y, width, height] = values;
     const bool fits = x >= 0 && y >= 0 && width > 0 && height > 0 && width <= film.crop_width - x && height <= film.crop_height - y;
     if (read < 4 || !fits)
-        throw InputError(fmt::format("--crop {}: expected X,Y,WIDTH,HEIGHT within the picture's {}×{} pixels, as in 0,0,{},{}",
-                                     text, film.crop_width, film.crop_height, film.crop_width, film.crop_height));
+        throw OptionError("crop", fmt::format("{}: expected X,Y,WIDTH,HEIGHT within the picture's {}×{} pixels, as in 0,0,{},{}",
+                                              text, film.crop_width, film.crop_height, film.crop_width, film.crop_height));
     return {x, y, width, height};
 }
 
@@ -78,8 +78,8 @@ using Json = nlohmann::ordered_json;
 void expect_growing(const char* option, const auto& values) {
     for (std::size_t i = 1; i < values.size(); ++i)
         if (!(values[i] > values[i - 1]))
-            throw InputError(fmt::format("{}: {:g} after {:g}; budgets have to grow", option, static_cast<double>(values[i]),
-                                         static_cast<double>(values[i - 1])));
+            throw OptionError(option, fmt::format(": {:g} after {:g}; budgets have to grow", static_cast<double>(values[i]),
+                                                  static_cast<double>(values[i - 1])));
 }
 
 // Everything that must be unchanged to resume an interrupted study.
@@ -133,11 +133,11 @@ StudyPlan study_plan(const Json& json, bool budgets_are_samples) {
 constexpr std::size_t found_crops = 3;
 
 void expect_sense(const StudyRequest& request) {
-    if (request.repeats < 2) throw InputError("--repeats 1: a variance takes at least 2 repeats");
+    if (request.repeats < 2) throw OptionError("repeats", " 1: a variance takes at least 2 repeats");
     if (!request.budgets.empty() && !request.samples.empty())
-        throw InputError("--budgets and --samples exclude each other: seconds of a run, or samples a pixel");
-    expect_growing("--budgets", request.budgets);
-    expect_growing("--samples", request.samples);
+        throw OptionError("budgets", " and --samples exclude each other: seconds of a run, or samples a pixel");
+    expect_growing("budgets", request.budgets);
+    expect_growing("samples", request.samples);
 }
 
 // "3 methods, 4 budgets and 16 repeats take about 1 min 20 s, the reference at most 20 s more".
@@ -259,7 +259,7 @@ StudyEnd run_study(StudyRequest request, const std::map<std::string, OwnEstimato
     for (const Estimate& picture : data.reference.pictures) PictureErrors check(picture);
     begin(data.reference.identity);
     if (journal.plan.at("reference") != data.reference.identity)
-        throw InputError("--resume: the reference is another one than that of the study that was cut off");
+        throw OptionError("resume", ": the reference is another one than that of the study that was cut off");
 
     if (!makes_reference) tell();
     run_all(data, journal, folder, status);

@@ -38,7 +38,7 @@ std::optional<Blocks> blocks_of(const std::optional<std::string>& text) {
     if (columns.ec == std::errc() && columns.ptr != end && *columns.ptr == 'x')
         if (const auto rows = std::from_chars(columns.ptr + 1, end, blocks.second); rows.ec == std::errc() && rows.ptr == end)
             if (blocks.first > 0 && blocks.second > 0 && blocks.first * std::int64_t{blocks.second} > 1) return blocks;
-    throw InputError(fmt::format("--lights {}: expected COLUMNSxROWS of at least two lights, such as 8x8", *text));
+    throw OptionError("lights", fmt::format("{}: expected COLUMNSxROWS of at least two lights, such as 8x8", *text));
 }
 
 // What is unbounced, and what of it was rendered.
@@ -65,7 +65,7 @@ void read_input(const UnbounceRequest& request, Input& input) {
     input.blocks = given ? given : folder.blocks;
     const std::size_t lights = folder.lights.size();
     if (given && static_cast<std::size_t>(given->first) * static_cast<std::size_t>(given->second) != lights)
-        throw InputError(fmt::format("--lights {}: {} has {} pictures", *request.lights, request.input.path, lights));
+        throw OptionError("lights", fmt::format("{}: {} has {} pictures", *request.lights, request.input.path, lights));
     if (lights > 1 && !request.regions.empty()) {
         input.regions = read_regions(request.regions);
     } else if (lights > 1 && folder.blocks) {
@@ -181,7 +181,8 @@ int unbounce_command(const UnbounceRequest& request) {
     OutputFolder folder(output, "unbounce");
     if (scene) render_input(request, *scene, watch, line, input);
     if (request.direct && !input.pictures.direct)
-        throw InputError(fmt::format("--direct: {} has no pictures of direct light, direct_000.exr and so on", request.input.path));
+        throw OptionError("direct",
+                          fmt::format(": {} has no pictures of direct light, direct_000.exr and so on", request.input.path));
 
     UnbounceSettings settings{request.bounces, request.regularisation, request.direct, {}, request.seed};
     if (input.blocks && input.blocks->first > 1 && input.blocks->second > 1)

@@ -73,9 +73,9 @@ public:
         }
         if (!error) acceptor_.listen(asio::socket_base::max_listen_connections, error);
         if (error)
-            throw InputError(
-                fmt::format("--live {}: this port of 127.0.0.1 cannot be had: {}; without a number any free one is taken", port,
-                            error.message()));
+            throw OptionError(
+                "live", fmt::format("{}: this port of 127.0.0.1 cannot be had: {}; without a number any free one is taken", port,
+                                    error.message()));
         port_ = acceptor_.local_endpoint().port();
         accept();
         thread_ = std::thread([this] { serve(); });

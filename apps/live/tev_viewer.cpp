@@ -30,20 +30,19 @@ TevViewer::TevViewer(const std::string& place, std::string name, std::function<v
     : connection_(std::make_unique<Connection>()), place_(place), name_(std::move(name)), tell_(std::move(tell)) {
     const std::size_t colon = place.rfind(':');
     if (colon == place.npos || colon == 0 || colon + 1 == place.size())
-        throw InputError(fmt::format("--tev {}: expected HOST:PORT, such as 127.0.0.1:14158", place));
+        throw OptionError("tev", fmt::format("{}: expected HOST:PORT, such as 127.0.0.1:14158", place));
     std::string host = place.substr(0, colon);
     if (host.starts_with('[') && host.ends_with(']')) host = host.substr(1, host.size() - 2);
     auto& stream = connection_->stream;
     stream.expires_after(longest_wait);
     const std::string port = place.substr(colon + 1);
     if (port.size() > 5 || port.find_first_not_of("0123456789") != port.npos || std::stoi(port) > 65535)
-        throw InputError(fmt::format("--tev {}: {} is no port; expected HOST:PORT, such as 127.0.0.1:14158", place, port));
+        throw OptionError("tev", fmt::format("{}: {} is no port; expected HOST:PORT, such as 127.0.0.1:14158", place, port));
     stream.connect(host, port);
     if (!stream)
-        throw InputError(
-            fmt::format("--tev {}: nobody answers there: {}; expected a tev that is running, which listens at "
-                        "127.0.0.1:14158 unless its --host says otherwise",
-                        place, stream.error().message()));
+        throw OptionError("tev", fmt::format("{}: nobody answers there: {}; expected a tev that is running, which listens at "
+                                             "127.0.0.1:14158 unless its --host says otherwise",
+                                             place, stream.error().message()));
     ::fcntl(stream.rdbuf()->native_handle(), F_SETFD, FD_CLOEXEC);
 }
 

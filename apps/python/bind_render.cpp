@@ -80,7 +80,7 @@ std::unique_ptr<Job> start_merge(const Kept& a, const Kept& b) {
         BounceSeries series = render(*a->scene, merged.render.method, goal, {}, std::move(saving));
         auto kept = std::make_shared<Mergeable>(Mergeable{*a, std::move(state)});
         kept->series = std::move(series);
-        kept->command_line = a->command_line + " merged with " + b->command_line;
+        kept->request.command_line = a->request.command_line + " merged with " + b->request.command_line;
         kept->seconds = clock.seconds();
         return [kept] { return py::cast(kept); };
     });

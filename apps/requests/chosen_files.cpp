@@ -45,7 +45,7 @@ ChosenFiles choose_files(const std::vector<std::string>& names, bool white) {
     for (const std::string& wanted : names) {
         const auto found = std::ranges::find(groups, wanted, [](const auto& group) { return std::string(group.first); });
         if (found == groups.end())
-            throw InputError(fmt::format("--files: {} not in {{{}}}", wanted, fmt::join(all_file_groups(), ",")));
+            throw OptionError("files", fmt::format(": {} not in {{{}}}", wanted, fmt::join(all_file_groups(), ",")));
         files.*(found->second) = true;
     }
     return files;

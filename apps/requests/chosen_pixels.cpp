@@ -21,10 +21,10 @@ ChosenPixels choose_pixels(const std::vector<std::string>& texts, const ChosenFi
         const bool has_comma = no_x == std::errc() && comma != end && *comma == ',';
         const auto [rest, no_y] = has_comma ? std::from_chars(comma + 1, end, y) : std::from_chars_result{comma, no_x};
         if (!has_comma || no_y != std::errc() || rest != end)
-            throw InputError(fmt::format("--paths {}: expected a pixel, as 19,160, or the word named", text));
+            throw OptionError("paths", fmt::format("{}: expected a pixel, as 19,160, or the word named", text));
         chosen.pixels.emplace_back(x, y);
     }
-    if (!chosen.empty() && !files.page) throw InputError("--paths: are for the page; expected page among --files");
+    if (!chosen.empty() && !files.page) throw OptionError("paths", ": are for the page; expected page among --files");
     return chosen;
 }
 

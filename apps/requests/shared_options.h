@@ -85,7 +85,7 @@ Option<Request> output_option(std::string Request::*folder, std::string meaning)
 
 template <class Request>
 Option<Request> files_option(std::vector<std::string> Request::*files) {
-    return option<Request>("files", "WHAT",
+    return option<Request>("files", fmt::format("WHAT:{{{}}}", fmt::join(all_file_groups(), ",")),
                            "What is written beside run.json; default all of these but layers, which is one file of all pictures",
                            files, one_of(all_file_groups()))
         .with_commas();
@@ -93,7 +93,7 @@ Option<Request> files_option(std::vector<std::string> Request::*files) {
 
 template <class Request>
 Option<Request> theme_option(std::string Request::*theme) {
-    return option<Request>("theme", "THEME",
+    return option<Request>("theme", "THEME:{dark,white}",
                            "What the contact sheet, the strips and the GIFs are on: dark, or white for slides and papers", theme,
                            one_of({"dark", "white"}))
         .showing_default();

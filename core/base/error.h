@@ -24,6 +24,14 @@ public:
     InputError(const Location& place, const std::string& what) : std::runtime_error(to_string(place) + ": " + what) {}
 };
 
+// The value of an option is wrong: "photons 64: these leave …". `what` follows the option's name, with a value or without, which who was
+// asked spells his own way.
+class OptionError : public InputError {
+public:
+    OptionError(const std::string& option, const std::string& what)
+        : InputError(option + (what.starts_with(':') || what.starts_with(' ') ? "" : " ") + what) {}
+};
+
 // All that is wrong with a scene is that things in it are not known; a lenient reader takes it without them.
 class UnknownError : public InputError {
     using InputError::InputError;

@@ -143,14 +143,14 @@ TEST(CacheClosedScenes, RefuseWhatTheyCannotDo) {
     const Scene box = read_scene(SCENES "/cornell-box/cornell-box.xml", {{"res", "16"}});
     EXPECT_EQ(refusal(box, usual, 1e9), "");
     const std::string much = refusal(box, usual, 1e5);  // at 96 bytes a ray
-    EXPECT_EQ(much, fmt::format(
-                        "--accuracy 0.05: the rays of {} records, and more are needed, take 0.0 GiB, and 0.0 may be taken; take a "
-                        "larger number, or fewer --directions",
-                        static_cast<int>(1e5 / (96.0 * static_cast<double>(HemisphereCells(64).size()))) + 1));
+    EXPECT_EQ(much,
+              fmt::format("accuracy 0.05: the rays of {} records, and more are needed, take 0.0 GiB, and 0.0 may be taken; take a "
+                          "larger number, or fewer --directions",
+                          static_cast<int>(1e5 / (96.0 * static_cast<double>(HemisphereCells(64).size()))) + 1));
     known::SceneMaker mirrors;
     mirrors.add(Sphere{{0, 0, 0}, 1.0, true}, known::made_of(Conductor(), Rgb(1.0)));
     EXPECT_EQ(refusal(mirrors.make(), usual, 1e9),
-              "--method cache keeps records on diffuse surfaces, and paths from the camera meet none; take --method walk");
+              "cache keeps records on diffuse surfaces, and paths from the camera meet none; take walk");
 }
 
 }  // namespace neumann::cache_closed_scenes_test

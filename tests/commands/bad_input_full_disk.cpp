@@ -81,10 +81,10 @@ TEST_F(BadInputFullDisk, WhatFitsIsKeptBeside) {
 // Where there is room for temporary files, everything.
 TEST_F(BadInputFullDisk, AllIsKeptWhereThereIsRoom) {
     RenderRequest request;
-    request.scene = path("scene.xml").string();
+    request.scene.path = path("scene.xml").string();
     request.goal.bounces = 1;
     request.goal.samples = 2;
-    const auto rendering = neumann::render(request, std::make_shared<const Scene>(read_scene(request.scene, {})), {});
+    const auto rendering = neumann::render(request, std::make_shared<const Scene>(read_scene(request.scene)), {});
     const std::string text = keep_elsewhere(*rendering, path("a").string()), before = "All of it is in ",
                       after = " instead; move it to where it is to stay";
     ASSERT_TRUE(text.starts_with(before) && text.ends_with(after)) << text;

@@ -37,7 +37,7 @@ protected:
 
     static std::string printed(const std::string& a, const std::string& b, bool json = false, bool flip = false) {
         testing::internal::CaptureStdout();
-        const int code = compare_command({a, b, "", json, {}, flip});
+        const int code = compare_command({a, b, "", {}, flip, json});
         std::fflush(stdout);
         std::string text = testing::internal::GetCapturedStdout();
         EXPECT_EQ(code, 0);
@@ -48,7 +48,7 @@ protected:
 
     static std::string refusal(const std::string& a, const std::string& b) {
         try {
-            compare_command({a, b, "", false});
+            compare_command({a, b});
         } catch (const InputError& error) {
             return error.what();
         }

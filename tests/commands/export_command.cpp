@@ -174,8 +174,11 @@ TEST_F(ExportCommand, NothingHalfWritten) {
 }
 
 TEST_F(ExportCommand, Refusals) {
-    EXPECT_EQ(refusal({furnace, "--patches", "0"}), "--patches 0: expected at least 1\n");
-    EXPECT_EQ(refusal({furnace, "--directions", "3"}), "--directions 3: expected a power of two, such as 2 or 4\n");
+    EXPECT_EQ(refusal({furnace, "--patches", "0"}),
+              "--patches: '0' is not a whole number from 1 to 1099511627776\nRun with --help for more information.\n");
+    EXPECT_EQ(
+        refusal({furnace, "--directions", "3"}),
+        "--directions: '3' is not a power of two from 1 to 1048576, such as 32 or 64\nRun with --help for more information.\n");
     write("file", "");
     EXPECT_EQ(refusal({furnace, "--patches", "6", "-o", "file"}), "file: cannot be written: Not a directory\n");
     const std::string many = refusal({furnace, "--patches", "9000000", "--directions", "1048576"});

@@ -136,7 +136,7 @@ TEST_F(MergeCommand, WhatDoesNotGoTogether) {
     EXPECT_EQ(contents("a"), before);
     expect_refused({"--part", "1/2"}, "--part needs --spp, the samples of all parts");
     expect_refused({"--part", "1/2", "--spp", "64", "--method", "matrix"},
-                   "--part: --method matrix has no samples that could be put together");
+                   "--part: matrix has no samples that could be put together");
     expect_refused({"--part", "3/8", "--spp", "64"},
                    "--part 3/8: 64 samples a pixel are 4 replicates of 16, which is fewer than one for each part");
     expect_refused({"--part", "17/16", "--spp", "64"},

@@ -165,7 +165,7 @@ TEST_F(PageCommand, WhatOtherPixelsBringIsSaid) {
     EXPECT_TRUE(from_light);
     render("scene.xml", "c", {"-n", "2", "--spp", "16", "--method", "matrix", "--patches", "50", "--quiet"});
     EXPECT_EQ(run({"page", "c", "--paths", "20,2"}).err,
-              "c: --method matrix has no paths to replay: its bounces are read from fields on patches\n");
+              "c: matrix has no paths to replay: its bounces are read from fields on patches\n");
 }
 
 // One file of all bounces has the values of the single ones, and their headers.

@@ -172,21 +172,16 @@ TEST_F(RenderFields, AClosedRoomOfAlbedoOneHasNoRest) {
 }
 
 TEST_F(RenderFields, Refusals) {
-    expect_refused({"--method", "gather", "--direct", "light"},
-                   "--direct belongs to --method walk and bidirectional, not to gather");
-    expect_refused({"--method", "pointwise", "--lights", "all"},
-                   "--lights belongs to --method walk and bidirectional, not to pointwise");
+    expect_refused({"--method", "gather", "--direct", "light"}, "--direct belongs to walk and bidirectional, not to gather");
+    expect_refused({"--method", "pointwise", "--lights", "all"}, "--lights belongs to walk and bidirectional, not to pointwise");
     expect_refused({"--direct", "cosine", "--lights", "all"},
-                   "--lights chooses among lights, and --direct cosine asks none; take light, solid-angle or mis");
-    expect_refused({"--patches", "100"},
-                   "--patches belongs to --method guided, corrected, matrix, gather and patches, not to walk");
-    expect_refused(
-        {"--method", "matrix", "--error", "0.1", "--spp", "4"},
-        "--error chooses patches, directions and samples by itself: --spp, --patches and --directions do not go with it");
+                   "--lights chooses among lights, and direct = cosine asks none; take light, solid-angle or mis");
+    expect_refused({"--patches", "100"}, "--patches belongs to guided, corrected, matrix, gather and patches, not to walk");
+    expect_refused({"--method", "matrix", "--error", "0.1", "--spp", "4"},
+                   "--error chooses patches, directions and samples by itself, and none of these goes with it");
     expect_refused({"--method", "matrix", "--patches", "0"}, "0 patches: at least one is needed");
     for (const char* method : {"walk", "matrix", "gather"})
-        expect_refused({"--method", method, "--importance"},
-                       std::string("--importance belongs to --method patches, not to ") + method);
+        expect_refused({"--method", method, "--importance"}, std::string("--importance belongs to patches, not to ") + method);
     expect_refused({"--method", "patches", "--importance", "--tail", "0.1"},
                    "--tail counts bounces by what is left of the light, not of importance: --importance takes -n");
 }

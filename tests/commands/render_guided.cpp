@@ -31,8 +31,7 @@ TEST_F(RenderGuided, SameSeedSameBitsOnAnyThreads) {
 }
 
 TEST_F(RenderGuided, Refusals) {
-    expect_refused({"--method", "guided", "--direct", "light"},
-                   "--direct belongs to --method walk and bidirectional, not to guided");
+    expect_refused({"--method", "guided", "--direct", "light"}, "--direct belongs to walk and bidirectional, not to guided");
     for (const char* directions : {"48", "32"})
         expect_refused({"--method", "guided", "--directions", directions},
                        std::string("--directions ") + directions + ": --method guided expects a power of two, at least 256");

@@ -55,7 +55,7 @@ TEST_F(RenderLights, WalksEndByRoulette) {
         EXPECT_EQ(done.exit_code, 0) << done.err;
         EXPECT_EQ(run_json("a").at("options").at("roulette"), how);
         EXPECT_EQ(
-            done.err.find("--roulette 0.5: where the albedo is above 0.707, the sums of walks have an infinite variance, and the "
+            done.err.find("roulette 0.5: where the albedo is above 0.707, the sums of walks have an infinite variance, and the "
                           "largest here is 0.9") != std::string::npos,
             std::string(how) == "0.5")
             << done.err;
@@ -72,16 +72,16 @@ TEST_F(RenderLights, WhatCannotFindALightIsRefused) {
         EXPECT_EQ(
             refusal(how),
             fmt::format("--direct {} cannot find lights without extent (directional, directionalarea, point, projector, spot), of "
-                        "which the scene has some; take --direct mis or light\n",
+                        "which the scene has some; take mis or light\n",
                         how));
     EXPECT_EQ(run({"render", "floor.xml", "--spp", "1", "--method", "pointwise"}).err,
-              "--method pointwise finds lights by chance, and no ray meets a light without extent (directional, directionalarea, "
+              "pointwise finds lights by chance, and no ray meets a light without extent (directional, directionalarea, "
               "point, projector, "
-              "spot), of which the scene has some; take --method walk, matrix or gather\n");
+              "spot), of which the scene has some; take walk, matrix or gather\n");
     write_floor("<emitter type='constant'/>");
     EXPECT_EQ(refusal("surfaces"),
               "--direct surfaces cannot find light from infinitely far away (constant, envmap, sunsky), of which the scene "
-              "has some; take --direct mis or light\n");
+              "has some; take mis or light\n");
 }
 
 }  // namespace neumann::render_lights_test

@@ -58,7 +58,7 @@ TEST_F(RenderRest, WithoutAnEndBouncesAreChosenOtherwise) {
     EXPECT_EQ(names("a"), output_names(16, false));
     const Finished done = run({"render", "scene.xml", "-o", "b", "--spp", "4", "--tail", "0.01"});
     EXPECT_EQ(done.exit_code, 1);
-    EXPECT_EQ(done.err, "neumann: --tail 0.01: the series does not converge: " + not_ended + "; give the bounces with -n\n");
+    EXPECT_EQ(done.err, "neumann: tail 0.01: the series does not converge: " + not_ended + "; give the number of bounces\n");
     EXPECT_EQ(done.out, "");
     EXPECT_FALSE(std::filesystem::exists(path("b")));
 }
@@ -67,7 +67,7 @@ TEST_F(RenderRest, TooSlowForTail) {
     write("scene.xml", closed_room("0.99"));
     const Finished done = run({"render", "scene.xml", "-o", "b", "--spp", "4", "--tail", "0.001"});
     EXPECT_EQ(done.exit_code, 1);
-    EXPECT_EQ(done.err, "neumann: --tail 0.001: more than 256 bounces would be needed; give the bounces with -n\n");
+    EXPECT_EQ(done.err, "neumann: tail 0.001: more than 256 bounces would be needed; give the number of bounces\n");
     EXPECT_FALSE(std::filesystem::exists(path("b")));
 }
 

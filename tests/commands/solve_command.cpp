@@ -123,9 +123,10 @@ TEST_F(SolveCommand, Csv) {
 }
 
 TEST_F(SolveCommand, Refusals) {
-    EXPECT_EQ(refusal({furnace, "--channel", "x"}), "--channel x: expected r, g or b\n");
-    EXPECT_EQ(refusal({furnace, "--channel", "red"}), "--channel red: expected r, g or b\n");
-    EXPECT_EQ(refusal({furnace, "--patches", "0"}), "--patches 0: expected at least 1\n");
+    EXPECT_EQ(refusal({furnace, "--channel", "x"}), "--channel: x not in {r,g,b}\nRun with --help for more information.\n");
+    EXPECT_EQ(refusal({furnace, "--channel", "red"}), "--channel: red not in {r,g,b}\nRun with --help for more information.\n");
+    EXPECT_EQ(refusal({furnace, "--patches", "0"}),
+              "--patches: '0' is not a whole number from 1 to 1099511627776\nRun with --help for more information.\n");
     for (const auto& [option, value] : {std::pair("--error", "0"), std::pair("--error", "nan"), std::pair("--most", "0")}) {
         const std::string message = refusal({furnace, option, value});
         EXPECT_TRUE(message.starts_with(std::string(option) + ": ")) << message;

@@ -72,7 +72,7 @@ TEST_F(SpectrumCommand, OneChannel) {
         EXPECT_EQ(found["channels"][0]["refinement"], all["channels"][number]["refinement"]);
         EXPECT_EQ(found["channels"][0]["spectral_radius_shift"], all["channels"][number]["spectral_radius_shift"]);
     }
-    EXPECT_EQ(refusal({room[0], "--channel", "x"}), "--channel x: expected r, g or b\n");
+    EXPECT_EQ(refusal({room[0], "--channel", "x"}), "--channel: x not in {r,g,b}\nRun with --help for more information.\n");
 }
 
 // Two surfaces that exchange light: F_ss = 3/4, F_sd = 1/4, and F_ds = 3/4 / 0.87², for the disk's rim is outside. 13 rings of
@@ -186,10 +186,17 @@ TEST_F(SpectrumCommand, WhatIsNotFoundIsSaid) {
 }
 
 TEST_F(SpectrumCommand, Refusals) {
-    EXPECT_EQ(refusal({furnace, "--patches", "0"}), "--patches 0: expected at least 1\n");
-    EXPECT_EQ(refusal({furnace, "--directions", "48"}), "--directions 48: expected a power of two, such as 32 or 64\n");
-    EXPECT_EQ(refusal({furnace, "--directions", "0"}), "--directions 0: expected a power of two, such as 64\n");
-    EXPECT_EQ(refusal({furnace, "--directions", "2097152"}), "--directions 2097152: expected at most 1048576\n");
+    EXPECT_EQ(refusal({furnace, "--patches", "0"}),
+              "--patches: '0' is not a whole number from 1 to 1099511627776\nRun with --help for more information.\n");
+    EXPECT_EQ(
+        refusal({furnace, "--directions", "48"}),
+        "--directions: '48' is not a power of two from 1 to 1048576, such as 32 or 64\nRun with --help for more information.\n");
+    EXPECT_EQ(
+        refusal({furnace, "--directions", "0"}),
+        "--directions: '0' is not a power of two from 1 to 1048576, such as 32 or 64\nRun with --help for more information.\n");
+    EXPECT_EQ(refusal({furnace, "--directions", "2097152"}),
+              "--directions: '2097152' is not a power of two from 1 to 1048576, such as 32 or 64\nRun with --help for more "
+              "information.\n");
     EXPECT_EQ(refusal({"none.xml"}), run({"render", "none.xml"}).err);
     const std::string many = refusal({furnace, "--patches", "1000000000000"});
     EXPECT_TRUE(many.starts_with(furnace + ": 1000000000000 patches of 64 rays need about ")) << many;

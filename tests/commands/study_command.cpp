@@ -293,12 +293,11 @@ TEST_F(StudyCommand, Refused) {
     EXPECT_NE(refusal({"--methods", "walk:direct=nowhere"}).find("--methods walk:direct=nowhere: --direct: nowhere not in {"),
               std::string::npos);
     EXPECT_EQ(refusal({"--methods", "matrix:direct=light", "--samples", "4"}),
-              "--methods matrix:direct=light: --direct belongs to --method walk and bidirectional, not to matrix\n");
-    EXPECT_EQ(
-        refusal({"--methods", "walk:patches=100", "--samples", "4"}),
-        "--methods walk:patches=100: --patches belongs to --method guided, corrected, matrix, gather and patches, not to walk\n");
+              "--methods matrix:direct=light: direct belongs to walk and bidirectional, not to matrix\n");
+    EXPECT_EQ(refusal({"--methods", "walk:patches=100", "--samples", "4"}),
+              "--methods walk:patches=100: patches belongs to guided, corrected, matrix, gather and patches, not to walk\n");
     EXPECT_EQ(refusal({"--methods", "matrix:sampler=sobol", "--samples", "4"}),
-              "--methods matrix:sampler=sobol: --sampler belongs to --method auto, walk, guided, corrected, surface, light, "
+              "--methods matrix:sampler=sobol: sampler belongs to auto, walk, guided, corrected, surface, light, "
               "bidirectional, mixed, photon, cache, metropolis, "
               "classic and pointwise, not to matrix\n");
     EXPECT_EQ(refusal({"--methods", "patches:importance=true"}),

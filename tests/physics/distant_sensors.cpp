@@ -159,10 +159,9 @@ TEST(DistantSensorsSlow, APointIsOneRay) {
             measure(scene, method::Light(), 2, 64);
             FAIL();
         } catch (const InputError& e) {
-            EXPECT_STREQ(
-                e.what(),
-                "--method light joins its paths to the sensor, and none meets a single ray, that of a 'radiancemeter' or of a "
-                "'distant' sensor with a point as target; take --method walk");
+            EXPECT_STREQ(e.what(),
+                         "light joins its paths to the sensor, and none meets a single ray, that of a 'radiancemeter' or of a "
+                         "'distant' sensor with a point as target; take walk");
         }
     }
 }

@@ -55,7 +55,7 @@ class Matrices(Case):
             self.assertEqual(one.name, every[number].name)
             np.testing.assert_array_equal(one.eigenvalues, every[number].eigenvalues)
             np.testing.assert_array_equal(one.eigenvectors, every[number].eigenvectors)
-        with self.assertRaisesRegex(neumann.InputError, "^--channel x: expected r, g or b$"):
+        with self.assertRaisesRegex(neumann.InputError, "^channel: x not in {r,g,b}$"):
             scene.spectrum(channel="x", **given)
 
     def test_furnace(self):
@@ -138,9 +138,9 @@ class Matrices(Case):
         self.assertTrue((np.diff(history["applications"]) > 0).all())
 
     def test_warnings_and_errors(self):
-        with self.assertRaisesRegex(neumann.InputError, "^--directions 3: expected a power of two, such as 2 or 4$"):
+        with self.assertRaisesRegex(neumann.InputError, "^directions: '3' is not a power of two from 1 to 1048576, such as 32 or 64$"):
             furnace().matrices(directions=3)
-        with self.assertRaisesRegex(neumann.InputError, "^--channel x: expected r, g or b$"):
+        with self.assertRaisesRegex(neumann.InputError, "^channel: x not in {r,g,b}$"):
             furnace().matrices(channel="x")
 
 

@@ -36,7 +36,7 @@ class Records(Case):
     def test_what_is_wrong(self):
         for arguments, message in (
             ({"bounces": 0}, "bounces 0: expected 1 to 1000"),
-            ({"accuracy": 0.0}, "--accuracy: '0.0' is not a number above 0"),
+            ({"accuracy": 0.0}, "accuracy: '0.0' is not a number above 0"),
             ({"records": "octree"}, "--records: octree not in {hessian,split-sphere}"),
         ):
             with self.assertRaises(neumann.InputError) as caught:

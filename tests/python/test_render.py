@@ -99,7 +99,7 @@ class Render(Case):
 
     def test_command_repeats_it(self):
         series = cornell().render(bounces=2, spp=4, direct="light", split=(2, 1), roulette=0.9)
-        self.assertRegex(series.run.command, r"^neumann render .*cornell-box.xml -n2 --spp=4 --direct=light .*--split=2,1 -D res=16$")
+        self.assertRegex(series.run.command, r"^neumann render .*cornell-box.xml -n 2 --spp 4 --direct light .*--split 2,1 -D res=16$")
         done = command(*series.run.command.split()[1:], "-o", "again", folder=self.folder)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.expect_same(series, neumann.read(self.folder / "again"))

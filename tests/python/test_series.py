@@ -112,7 +112,7 @@ class Merging(Case):
         fields = cornell().render(method="matrix", bounces=3, patches=100, directions=16, spp=4, quiet=True)
         for other, said in (
             (a, "the first series and the second series have the same samples, of seed 1; merged, these would count twice"),
-            (render(2, bounces=2), "the first series and the second series cannot be merged: one has bounces 0 to 3, and the other 0 to 2; give both the same -n"),
+            (render(2, bounces=2), "the first series and the second series cannot be merged: one has bounces 0 to 3, and the other 0 to 2; give both the same number"),
             (render(2, method="light"), "the first series and the second series cannot be merged: one is by walk, and the other by light"),
             (
                 furnace().render(bounces=3, spp=64, seed=2, method="walk", quiet=True),

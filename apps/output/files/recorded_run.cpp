@@ -20,7 +20,7 @@ namespace {
 
 void expect_paths(const Method& method, const std::string& folder) {
     if (const std::string why = why_no_replay(method); !why.empty())
-        throw InputError(fmt::format("{}: --method {} has no paths to replay: {}", folder, name_of(method), why));
+        throw InputError(fmt::format("{}: {} has no paths to replay: {}", folder, name_of(method), why));
 }
 
 RecordedRun recorded_run(const Json& json, const std::string& folder) {
@@ -111,8 +111,8 @@ namespace {
 
 void expect_sample(std::uint64_t sample, std::uint64_t first, std::uint64_t count) {
     if (sample < first || sample - first >= count)
-        throw InputError(
-            fmt::format("--sample {}: expected {} to {}, as many as the render has a pixel", sample, first, first + count - 1));
+        throw OptionError(
+            "sample", fmt::format("{}: expected {} to {}, as many as the render has a pixel", sample, first, first + count - 1));
 }
 
 }  // namespace
@@ -150,8 +150,8 @@ RecordedSamplers::Place RecordedSamplers::find(SampleName name) {
         const auto& [sampler, name_there, part, method] = all.part_of(name);
         const std::uint64_t of_part = sampler.layout().size(pixel), n = replicates * of_part, begin = first * of_part;
         if (name_there.sample < begin || name_there.sample - begin >= n)
-            throw InputError(fmt::format("--sample {}: {} has {} samples in this pixel; expected {} j + {} with j from {} on",
-                                         asked, method, n, all.parts(), part, begin));
+            throw OptionError("sample", fmt::format("{}: {} has {} samples in this pixel; expected {} j + {} with j from {} on",
+                                                    asked, method, n, all.parts(), part, begin));
         return {samples, name};
     }
     const std::uint64_t size = samples.sampler().layout().size(pixel);

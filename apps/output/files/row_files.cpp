@@ -29,9 +29,9 @@ void expect_same_scene(const fs::path& folder, const Json& now, const Json& kept
     for (const auto& [name, value] : now.items()) {
         const Json before = kept.value(name, Json());
         if (value != before)
-            throw InputError(
-                fmt::format("--keep {}: holds rays of another scene: its {} is {} there, and {} here; expected another folder",
-                            folder.string(), name, json_text(before), json_text(value)));
+            throw OptionError(
+                "keep", fmt::format("{}: holds rays of another scene: its {} is {} there, and {} here; expected another folder",
+                                    folder.string(), name, json_text(before), json_text(value)));
     }
 }
 

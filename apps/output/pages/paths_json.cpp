@@ -134,7 +134,7 @@ Json pixel_json(const RecordedRun& run, const Scene& scene, RecordedSamplers& sa
     const std::vector<ReplicatesOf> replicates = samplers.replicates();
     const PictureSampler& sampler = replicates.front().sampler;
     if (sampler.layout().size(number) == 0)
-        throw InputError(fmt::format("--paths {},{}: no samples were taken of this pixel", pixel.x, pixel.y));
+        throw OptionError("paths", fmt::format("{},{}: no samples were taken of this pixel", pixel.x, pixel.y));
     Json json = {{"pixel", {pixel.x, pixel.y}}, {"picture", {pixel.x - scene.film.crop_x, pixel.y - scene.film.crop_y}}};
     std::optional<PixelHistory> history;
     if (const std::string why = sampler.settings().method->why_no_history(); why.empty()) {

@@ -120,8 +120,8 @@ void StudyJournal::expect_same(const Json& now) const {
     const Json as_written = Json::parse(json_text(now));
     for (const auto& [name, value] : study.items())
         if (as_written.at(name) != value)
-            throw InputError(fmt::format("--resume: {} is {}, and the study that was cut off has {}", name, json_text(now.at(name)),
-                                         json_text(value)));
+            throw OptionError("resume", fmt::format(": {} is {}, and the study that was cut off has {}", name,
+                                                    json_text(now.at(name)), json_text(value)));
 }
 
 void StudyJournal::begin(const Json& new_study, const Json& new_plan) {

@@ -44,13 +44,13 @@ StudyReference from_values(const std::string& text, const Film& film, int bounce
         double value = 0.0;
         const auto [next, error] = std::from_chars(at, end, value);
         if (error != std::errc() || (next != end && *next != ',') || !std::isfinite(value))
-            throw InputError(fmt::format("--reference {}: expected a number for each bounce, as in values:1,0.5,0.25", text));
+            throw OptionError("reference", fmt::format("{}: expected a number for each bounce, as in values:1,0.5,0.25", text));
         values.push_back(value);
         at = next;
     }
     if (values.size() < static_cast<std::size_t>(bounces) + 1)
-        throw InputError(fmt::format("--reference {}: has {} values, expected {}, of bounces 0 to {}", text, values.size(),
-                                     bounces + 1, bounces));
+        throw OptionError("reference", fmt::format("{}: has {} values, expected {}, of bounces 0 to {}", text, values.size(),
+                                                   bounces + 1, bounces));
     StudyReference result;
     Image picture(film.crop_width, film.crop_height), sum = picture;
     for (int i = 0; i <= bounces; ++i) {
@@ -128,16 +128,16 @@ StudyMethod making_method(const StudyRequest& request) {
     try {
         method.method = studied_method(request.reference);
     } catch (const InputError&) {
-        throw InputError(
-            fmt::format("--reference {}: expected the folder of an earlier render, values:A,B,…, or a method without bias that "
-                        "makes one, as in walk or walk:direct=light",
-                        request.reference));
+        throw OptionError("reference",
+                          fmt::format("{}: expected the folder of an earlier render, values:A,B,…, or a method without bias that "
+                                      "makes one, as in walk or walk:direct=light",
+                                      request.reference));
     }
     if (is_biased(method.method))
-        throw InputError(fmt::format("--reference {}: {} have an error of their own; take walk", request.reference,
-                                     has_fields(method.method)                              ? "fields on patches"
-                                     : std::holds_alternative<method::Cache>(method.method) ? "irradiance caches"
-                                                                                            : "photon maps"));
+        throw OptionError("reference", fmt::format("{}: {} have an error of their own; take walk", request.reference,
+                                                   has_fields(method.method)                              ? "fields on patches"
+                                                   : std::holds_alternative<method::Cache>(method.method) ? "irradiance caches"
+                                                                                                          : "photon maps"));
     return method;
 }
 

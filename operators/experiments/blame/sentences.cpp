@@ -51,12 +51,12 @@ std::string what_is_unclear(const TermVerdict& term, std::uint64_t samples) {
                     1.96 * term.test.ratio_error);
     switch (*term.doubt) {
         case TermVerdict::Doubt::few_samples:
-            return fmt::format("{}, and there are not enough samples of ours, {} a pixel, to say why; --time S takes more.",
+            return fmt::format("{}, and there are not enough samples of ours, {} a pixel, to say why; more time or samples do.",
                                is_apart, samples);
         case TermVerdict::Doubt::shared_numbers:
             return fmt::format(
                 "{}, too much or too little over wide areas, by more than your pixels' own noise, and no mistake that is tried "
-                "explains it. Perhaps your pixels share random numbers; pictures of a second seed, --again, tell.",
+                "explains it. Perhaps your pixels share random numbers; pictures of a second seed, given again, tell.",
                 is_apart);
         default:
             return fmt::format(

@@ -81,8 +81,7 @@ void expect_same_rays(const RowsToTrace& rows, const SobolByRays& sobol, std::sp
         std::vector<std::uint32_t> again(kept.size());
         trace_row(rows, sobol.at(static_cast<std::uint32_t>(kept.size())), rows.facets[i], {}, again.data());
         if (!std::ranges::equal(again, kept))
-            throw KeptRowsError(
-                "the rays that are kept are not those that this program traces here; expected another folder with --keep");
+            throw KeptRowsError("the rays that are kept are not those that this program traces here; expected another folder");
     }
 }
 

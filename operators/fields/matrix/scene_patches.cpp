@@ -19,7 +19,7 @@ constexpr std::uint32_t rays = 256;
 // Throws InputError unless the side `met` by a ray along w faces a medium of index 1. `what` names the ray's origin in the message.
 void check(const Scene& scene, const SurfacePoint& met, const Vec3& w, const std::string& what) {
     if (refractive_index(scene.materials.at(met.shape, glm::dot(met.normal, w) < 0.0)) == 1.0) return;
-    const std::string why = what + " stands within glass, which patches do not hold; 'render --method walk' can";
+    const std::string why = what + " stands within glass, which patches do not hold, and walk does";
     if (met.shape >= scene.origins.size()) throw InputError(why);
     throw InputError(scene.origins[met.shape].place, fmt::format("{}: in {}", why, scene.origins[met.shape].shape));
 }

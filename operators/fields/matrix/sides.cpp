@@ -34,12 +34,10 @@ bool passes_as_glass(const Bsdf& bsdf) {
 
 void check(const Scene& scene, std::uint32_t shape, const Bsdf& bsdf) {
     if (!passes_as_glass(bsdf))
-        refuse(scene, shape, "lets light through otherwise than glass does, which patches do not hold; 'render --method walk' can");
+        refuse(scene, shape, "lets light through otherwise than glass does, which patches do not hold, and walk does");
     if (!factors(bsdf))
-        refuse(scene, shape,
-               "varies by more than a factor of its reflectance, which patches do not hold; 'render --method walk' can");
-    if (needs_coordinates(white(bsdf)))
-        refuse(scene, shape, "is anisotropic, which patches do not hold; 'render --method walk' can");
+        refuse(scene, shape, "varies by more than a factor of its reflectance, which patches do not hold, and walk does");
+    if (needs_coordinates(white(bsdf))) refuse(scene, shape, "is anisotropic, which patches do not hold, and walk does");
 }
 
 }  // namespace

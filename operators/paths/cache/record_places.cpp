@@ -71,8 +71,7 @@ public:
         std::vector<Seen> seen = camera_vertices();
         if (seen.empty()) {
             if (scene_.emitters.empty()) return;
-            throw InputError(
-                "--method cache keeps records on diffuse surfaces, and paths from the camera meet none; take --method walk");
+            throw InputError("cache keeps records on diffuse surfaces, and paths from the camera meet none; take walk");
         }
         std::vector<Vec3> positions;
         for (const Seen& vertex : seen) positions.push_back(vertex.x.position);
@@ -200,11 +199,10 @@ private:
         records.push_back({vertex.x, vertex.frame, clamped(proposal.radius * (seen ? 1.0 : unseen_radius)), seen});
         const double bytes = bytes_of_ray * static_cast<double>(records.size() * places_.cells_.size());
         if (bytes > memory_)
-            throw InputError(
-                fmt::format("--accuracy {:g}: the rays of {} records, and more are needed, take {:.1f} GiB, and {:.1f} may be "
-                            "taken; take a larger "
-                            "number, or fewer --directions",
-                            places_.settings_.accuracy, records.size(), bytes / 0x1p30, memory_ / 0x1p30));
+            throw OptionError("accuracy",
+                              fmt::format("{:g}: the rays of {} records, and more are needed, take {:.1f} GiB, and {:.1f} may be "
+                                          "taken; take a larger number, or fewer directions",
+                                          places_.settings_.accuracy, records.size(), bytes / 0x1p30, memory_ / 0x1p30));
         places_.index_->add(records.back(), static_cast<std::uint32_t>(records.size() - 1), proposal.reach);
         ahead_.insert(ahead_.end(), proposal.sees.begin(), proposal.sees.end());
     }

@@ -96,8 +96,7 @@ PhotonPilot::PhotonPilot(const Scene& scene, const PhotonChoice& choice, Sampler
     auto photons = PhotonTracer(scene, walk, of_pilot, sampler, stream).trace(0, watch.stop);
     if (!photons) throw Stopped();
     if (!scene.emitters.empty() && !photons->reach_something)
-        throw InputError(
-            fmt::format("--method photon: none of {} paths from the lights meets a surface; take --method walk", of_pilot.paths));
+        throw InputError(fmt::format("photon: none of {} paths from the lights meets a surface; take walk", of_pilot.paths));
     const double more = static_cast<double>(settings.paths) / of_pilot.paths;
     power = photons->power;
     rays = std::accumulate(photons->rays.begin(), photons->rays.end(), std::uint64_t{0});
@@ -105,10 +104,11 @@ PhotonPilot::PhotonPilot(const Scene& scene, const PhotonChoice& choice, Sampler
     other_photons = static_cast<std::size_t>(more * static_cast<double>(photons->others.size()));
     const double bytes = bytes_of_photon * static_cast<double>(caustic_photons + other_photons);
     if (bytes > memory)
-        throw InputError(fmt::format(
-            "--photons {}: these leave about {:.3g} million photons in a pass, which take {:.1f} GiB, and {:.1f} "
-            "may be taken; take fewer",
-            settings.paths, 1e-6 * static_cast<double>(caustic_photons + other_photons), bytes / 0x1p30, memory / 0x1p30));
+        throw OptionError("photons",
+                          fmt::format("{}: these leave about {:.3g} million photons in a pass, which take {:.1f} GiB, and {:.1f} "
+                                      "may be taken; take fewer",
+                                      settings.paths, 1e-6 * static_cast<double>(caustic_photons + other_photons), bytes / 0x1p30,
+                                      memory / 0x1p30));
     if (choice.radius) {
         settings.radius = settings.caustic_radius = *choice.radius;
         return;

@@ -19,7 +19,7 @@ constexpr double least_ratio = 0.1, largest_ratio = 16.0, most_branches = 256.0;
 
 std::shared_ptr<const TreeRatios> tree_ratios(const Scene& scene, int bounces, const TreeGoal& goal, const Watch& watch) {
     if (goal.bounce && *goal.bounce > bounces)
-        throw InputError(fmt::format("--tree {}: the last bounce that has a picture is {}", *goal.bounce, bounces));
+        throw OptionError("tree", fmt::format("{}: the last bounce that has a picture is {}", *goal.bounce, bounces));
     const int depths = goal.bounce.value_or(std::min(bounces, most_depths_of_tree));
     const TreePilot pilot = measure_tree(scene, depths, samples_of_pilot, tree_stream, watch);
     const std::vector<double> numbers = best_tree(goal.bounce ? pilot.bounces.back() : pilot.sum);

@@ -11,7 +11,7 @@ std::shared_ptr<const PathSampler> ClassicPaths::sampler(const Scene& scene, con
 void ClassicPaths::warn(const Scene& scene, Warnings& warnings) const {
     PathMethod::warn(scene, warnings);
     warnings.add(
-        "--method classic makes only paths whose reflections are specular but for the last one: the light of all other paths is "
+        "classic makes only paths whose reflections are specular but for the last one: the light of all other paths is "
         "missing");
 }
 

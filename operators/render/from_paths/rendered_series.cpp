@@ -160,7 +160,7 @@ RenderedSeries render_series(const Scene& scene, const PictureSampler::Settings&
         if (!node && done == 0 && !watch.stop())
             throw RunError(
                 fmt::format("{} samples for each of {}×{} pixels were not finished in {:.3g} s: no picture was written; take "
-                            "a longer --time, a smaller film or --method walk",
+                            "more time, a smaller film or walk",
                             size, sampler.width(), sampler.height(), seconds_so_far()));
         if (!node && done == 0) {
             PictureSampler::Settings single = settings;

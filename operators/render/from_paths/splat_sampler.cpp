@@ -28,7 +28,7 @@ void LightPaths::warn(const Scene& scene, Warnings& warnings) const {
     PathMethod::warn(scene, warnings);
     if (paths(scene) == Paths::seen_directly)
         warnings.add(
-            "--method light makes no path whose last reflection before the camera is in a mirror, of glass or of anything else "
+            "light makes no path whose last reflection before the camera is in a mirror, of glass or of anything else "
             "that "
             "sends light in a single direction, and does not see what surrounds the scene: these are missing");
 }

@@ -14,10 +14,9 @@ void SurfacePaths::warn(const Scene& scene, Warnings& warnings) const {
     PathMethod::warn(scene, warnings);
     if (paths(scene) == Paths::without_specular)
         warnings.add(
-            "--method surface makes no path by way of a mirror, of glass or of anything else that sends light in a single "
+            "surface makes no path by way of a mirror, of glass or of anything else that sends light in a single "
             "direction: what these reflect and let through is missing");
-    warnings.add(
-        "where surfaces meet at an angle, the variance of --method surface is infinite, even if the samples do not show it");
+    warnings.add("where surfaces meet at an angle, the variance of surface is infinite, even if the samples do not show it");
 }
 
 }  // namespace neumann

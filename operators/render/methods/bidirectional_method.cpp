@@ -21,11 +21,10 @@ std::vector<MethodOption> Bidirectional::own_options() {
 void Bidirectional::expect_sense(bool) const {
     if (direct.direct != DirectLight::mis || direct.place == LightPlace::projected)
         throw InputError(
-            fmt::format("--method bidirectional both asks for lights and hits them; take --direct mis, mis-balance or "
+            fmt::format("bidirectional both asks for lights and hits them; take direct = mis, mis-balance or "
                         "mis-solid-angle, not {}",
                         name_of(direct)));
-    if (direct.lights == LightChoice::all)
-        throw InputError("--method bidirectional asks one light at a time; --lights all belongs to --method walk");
+    if (direct.lights == LightChoice::all) throw InputError("bidirectional asks one light at a time; lights = all belongs to walk");
 }
 
 std::shared_ptr<const PathMethod> Bidirectional::prepare(const Preparing&) const {

@@ -17,12 +17,12 @@ constexpr int default_least_bounces = 16, default_most_bounces = 64;
 int bounces_for(double tail, const Pilot& pilot) {
     if (!pilot.converges())
         throw RunError(fmt::format(
-            "--tail {}: the series does not converge: {} of {} walks had not ended after {} bounces; give the bounces with -n",
+            "tail {}: the series does not converge: {} of {} walks had not ended after {} bounces; give the number of bounces",
             tail, pilot.given_up(), pilot.walks(), pilot.bounces() + Pilot::give_up));
     const int n = pilot.bounces_for_tail(tail);
     if (n < 0)
         throw RunError(
-            fmt::format("--tail {}: more than {} bounces would be needed; give the bounces with -n", tail, pilot.bounces()));
+            fmt::format("tail {}: more than {} bounces would be needed; give the number of bounces", tail, pilot.bounces()));
     return n;
 }
 

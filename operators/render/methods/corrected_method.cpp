@@ -33,7 +33,7 @@ std::shared_ptr<const PathMethod> Corrected::prepare(const Preparing& in) const 
     if (directions) {
         wanted.rays = *directions;
         if (!std::has_single_bit(wanted.rays))
-            throw InputError(fmt::format("--directions {}: --method corrected expects a power of two", wanted.rays));
+            throw OptionError("directions", fmt::format("{}: corrected expects a power of two", wanted.rays));
     }
     if (const auto made = in.prepared.of(name); made && serves(as<CorrectedPaths>(made)->approximation().settings(), wanted))
         return made;

@@ -38,8 +38,8 @@ std::shared_ptr<const PathMethod> Guided::prepare(const Preparing& in) const {
     if (directions) {
         wanted.rays = *directions;
         if (!std::has_single_bit(wanted.rays) || wanted.rays < CellDistribution::cells)
-            throw InputError(fmt::format("--directions {}: --method guided expects a power of two, at least {}", wanted.rays,
-                                         CellDistribution::cells));
+            throw OptionError("directions",
+                              fmt::format("{}: guided expects a power of two, at least {}", wanted.rays, CellDistribution::cells));
     }
     if (const auto made = in.prepared.of(name); made && serves(as<GuidedPaths>(made)->guide().settings(), wanted)) return made;
     return in.prepared.keep(name, std::make_shared<const GuidedPaths>(std::make_shared<const Guide>(in.scene, wanted, in.watch)));

@@ -30,7 +30,7 @@ void expect_alike(const NamedState& a, const NamedState& b) {
                                                                    : fmt::format("the other by {}", name_of(y.method)));
     if (x.bounces != y.bounces)
         unlike(fmt::format("one has bounces 0 to {}", x.bounces),
-               fmt::format("the other 0 to {}; give both the same -n", y.bounces));
+               fmt::format("the other 0 to {}; give both the same number", y.bounces));
     if (m.width() != n.width() || m.height() != n.height())
         unlike(fmt::format("one has {}×{} pixels", m.width(), m.height()), fmt::format("the other {}×{}", n.width(), n.height()));
     if (x.replicate_size != y.replicate_size)

@@ -55,7 +55,7 @@ Plan plan_for(const Method& method, const Scene& scene) {
     });
     if (asks_roulette(method))
         for (PlanPart& p : plan.parts)
-            if (p.part == roulette_part) p = {roulette_part, true, "--roulette asks for it", ""};
+            if (p.part == roulette_part) p = {roulette_part, true, "the option roulette asks for it", ""};
     return plan;
 }
 

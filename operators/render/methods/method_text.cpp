@@ -33,7 +33,7 @@ Method make_method(const MethodText& text) {
     }
     const auto is_it = [&](const Method& method) { return name_of(method) == text.name; };
     const auto found = std::find_if(all_methods().begin(), all_methods().end(), is_it);
-    if (found == all_methods().end()) throw InputError("--method: " + wrong_method(text.name));
+    if (found == all_methods().end()) throw OptionError("method", ": " + wrong_method(text.name));
     Method method = *found;
     bool lights = false;
     for (const auto& [name, value] : text.options) {
@@ -46,9 +46,9 @@ Method make_method(const MethodText& text) {
             std::vector<std::string> owners;
             for (const Method& m : all_methods())
                 if (o->belongs_to(m)) owners.push_back(name_of(m));
-            throw InputError(fmt::format("--{} belongs to --method {}, not to {}", name, listed(owners), text.name));
+            throw OptionError(name, fmt::format(" belongs to {}, not to {}", listed(owners), text.name));
         }
-        if (const std::string wrong = o->wrong(value); !wrong.empty()) throw InputError(fmt::format("--{}: {}", name, wrong));
+        if (const std::string wrong = o->wrong(value); !wrong.empty()) throw OptionError(name, ": " + wrong);
         o->read(method, value);
         lights = lights || name == "lights";
     }

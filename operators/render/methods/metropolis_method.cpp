@@ -23,11 +23,11 @@ void Metropolis::expect_room(const Film& film, std::uint32_t replicate_size) con
     const std::uint64_t states =
         std::uint64_t{replicate_size} * static_cast<std::uint64_t>(film.crop_width) * static_cast<std::uint64_t>(film.crop_height);
     if (chain && *chain > 1 && *chain > states / chains_at_once)
-        throw InputError(
-            fmt::format("--chain {}: a replicate of {} samples for each of {}×{} pixels has {} states of a bounce, and its {} "
-                        "chains may be of {} at most",
-                        *chain, replicate_size, film.crop_width, film.crop_height, states, chains_at_once,
-                        std::max<std::uint64_t>(states / chains_at_once, 1)));
+        throw OptionError(
+            "chain", fmt::format("{}: a replicate of {} samples for each of {}×{} pixels has {} states of a bounce, and its {} "
+                                 "chains may be of {} at most",
+                                 *chain, replicate_size, film.crop_width, film.crop_height, states, chains_at_once,
+                                 std::max<std::uint64_t>(states / chains_at_once, 1)));
 }
 
 std::shared_ptr<const PathMethod> Metropolis::prepare(const Preparing&) const {

@@ -20,7 +20,7 @@ void warn_of_paths(BounceSeries& series, const RenderJob& job, const SamplingSet
     settings.method->warn(job.scene, warnings);
     if (settings.walk.roulette.kind == Roulette::Kind::fixed && settings.walk.roulette.survival <= albedo * albedo)
         warnings.add(
-            fmt::format("--roulette {}: where the albedo is above {:.3g}, the sums of walks have an infinite variance, and the "
+            fmt::format("roulette {}: where the albedo is above {:.3g}, the sums of walks have an infinite variance, and the "
                         "largest here is {:.3g}",
                         settings.walk.roulette.survival, std::sqrt(settings.walk.roulette.survival), albedo));
     if (sampled.moments.replicates() < 2 && !goal.only_pictures)

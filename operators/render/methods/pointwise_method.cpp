@@ -7,8 +7,8 @@ namespace neumann::method {
 void Pointwise::expect(const Scene& scene) const {
     if (scene.emitters.has_delta_lights())
         throw InputError(
-            "--method pointwise finds lights by chance, and no ray meets a light without extent (directional, directionalarea, "
-            "point, projector, spot), of which the scene has some; take --method walk, matrix or gather");
+            "pointwise finds lights by chance, and no ray meets a light without extent (directional, directionalarea, "
+            "point, projector, spot), of which the scene has some; take walk, matrix or gather");
 }
 
 std::shared_ptr<const PathMethod> Pointwise::prepare(const Preparing&) const { return std::make_shared<const PointwisePaths>(); }

@@ -99,9 +99,9 @@ std::optional<Method> Preparations::fitting(double seconds, const Method& method
 Method Preparations::in_time(double seconds, const Method& method) const {
     if (const auto fits = fitting(longest_preparation(seconds), method)) return *fits;
     const Preparation preparation = of(method);
-    throw InputError(fmt::format(
-        "--method {}: {}, and a third of {:.3g} s at most may go into that; take --time {:.0f}, --spp, or --method walk",
-        name_of(method), describe(preparation), seconds, std::ceil(preparation.seconds / part_of_time)));
+    throw InputError(
+        fmt::format("{}: {}, and a third of {:.3g} s at most may go into that; take {:.0f} s, a number of samples, or walk",
+                    name_of(method), describe(preparation), seconds, std::ceil(preparation.seconds / part_of_time)));
 }
 
 std::string describe(const Preparation& preparation) {

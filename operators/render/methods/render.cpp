@@ -42,7 +42,7 @@ BounceSeries render_chosen(const Scene& scene, const method::Auto& open, const G
         return render(scene, choice->method, goal, watch, pilot, saving, choice, prepared, clock);
     } catch (const Stopped&) {
         // What can still be sampled is walks, as where the pilot itself was interrupted.
-        choice->why = fmt::format("the render was interrupted while --method {} was made ready", name_of(choice->method));
+        choice->why = fmt::format("the render was interrupted while {} was made ready", name_of(choice->method));
         choice->method = method::Walk{open};
     }
     return render(scene, choice->method, goal, watch, pilot, saving, choice, prepared, clock);

@@ -78,7 +78,7 @@ void warn_of_wide_intervals(const SeriesReport& report, Warnings& warnings) {
         if (m.interval() > wide_interval * std::abs(m.mean)) wide.push_back(i);
     }
     if (wide.empty()) return;
-    warnings.add(fmt::format("the mean's interval is wider than {:.0f}% of it in bounce {}; more samples (--spp) make it narrower",
+    warnings.add(fmt::format("the mean's interval is wider than {:.0f}% of it in bounce {}; more samples make it narrower",
                              100.0 * wide_interval, fmt::join(wide, ", ")));
 }
 
@@ -140,13 +140,12 @@ BounceSeries render_by(M m, const RenderJob& job) {
     if (goal.colors) throw InputError("fields on patches have linear RGB alone");
     const bool given = is_given(m, goal), importance = std::same_as<M, method::Patches> && kind(m) == FieldReading::importance;
     if (importance && goal.tail)
-        throw InputError("--tail counts bounces by what is left of the light, not of importance: --importance takes -n");
+        throw OptionError("tail", " counts bounces by what is left of the light, not of importance; give their number");
     const std::optional<double> seconds = with_default_limits(goal).seconds;
     if (seconds && !given && !job.saving.from) Preparations(job.scene, job.pilot()).in_time(*seconds, m);
     FieldSettings settings = choose_settings(m, job);
     if (goal.relative_error && given)
-        throw InputError(
-            "--error chooses patches, directions and samples by itself: --spp, --patches and --directions do not go with it");
+        throw OptionError("error", " chooses patches, directions and samples by itself, and none of these goes with it");
     FieldSaving saving;
     if (job.saving.from) saving.from = std::move(job.saving.from->fields);
     const bool searches = !given || goal.seconds;
@@ -213,7 +212,7 @@ BounceSeries render_by_fields(const Method& method, const RenderJob& job) {
             if constexpr (HasFields<M>)
                 return render_by(m, job);
             else
-                throw InputError(fmt::format("--method {} has no fields on patches", M::name));
+                throw InputError(fmt::format("{} has no fields on patches", M::name));
         },
         method);
 }

@@ -84,9 +84,9 @@ SamplingGoal sampling_goal(const Goal& goal) {
 void take_part(const PartOfSamples& part, std::uint64_t size, SamplingGoal& goal) {
     const std::uint64_t all = *goal.samples / size;
     if (all < part.n)
-        throw InputError(
-            fmt::format("--part {}/{}: {} samples a pixel are {} replicates of {}, which is fewer than one for each part", part.k,
-                        part.n, *goal.samples, all, size));
+        throw OptionError(
+            "part", fmt::format("{}/{}: {} samples a pixel are {} replicates of {}, which is fewer than one for each part", part.k,
+                                part.n, *goal.samples, all, size));
     goal.first = all * (part.k - 1) / part.n;
     goal.samples = (all * part.k / part.n - goal.first) * size;
 }
@@ -163,11 +163,11 @@ bool set_up(const Method& method, const RenderJob& job, SamplingSettings& settin
     } catch (const Stopped&) {
         if (!job.watch.stop())
             throw RunError(
-                fmt::format("--method {} was not ready after {:.3g} s of {:.3g}: no picture was written; take a longer --time, "
-                            "--spp, or --method walk",
+                fmt::format("{} was not ready after {:.3g} s of {:.3g}: no picture was written; take more time, a "
+                            "number of samples, or walk",
                             name_of(method), clock.seconds(), *seconds));
-        throw Stopped(fmt::format("interrupted while --method {} was made ready, before the first sample: no picture was written",
-                                  name_of(method)));
+        throw Stopped(
+            fmt::format("interrupted while {} was made ready, before the first sample: no picture was written", name_of(method)));
     }
 }
 
@@ -329,8 +329,7 @@ Method foretold(const Method& method, int bounces, const RenderJob& job) {
     if (left < fewest_replicates * each) {
         const double smaller = std::sqrt(left / (enough_samples * each));
         job.watch.tell(fmt::format(
-            "One sample a pixel takes about {:.2g} s on a film of {}×{}, and {:.3g} s are left; {:.0f} samples take --time {:.0f}, "
-            "or a "
+            "One sample a pixel takes about {:.2g} s on a film of {}×{}, and {:.3g} s are left; {:.0f} samples take {:.0f} s, or a "
             "film of {:.0f}×{:.0f}",
             each, film.crop_width, film.crop_height, left, enough_samples, std::ceil(enough_samples * each),
             std::max(std::floor(smaller * film.crop_width), 1.0), std::max(std::floor(smaller * film.crop_height), 1.0)));

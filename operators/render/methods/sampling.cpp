@@ -14,8 +14,9 @@ namespace {
 
 void expect_in_reach(const DirectLightSettings& direct, const Emitters& emitters) {
     if (misses_light(direct.direct, emitters))
-        throw InputError(
-            fmt::format("--direct {} cannot find {}, of which the scene has some; take --direct mis or light", name_of(direct),
+        throw OptionError(
+            "direct",
+            fmt::format("{} cannot find {}, of which the scene has some; take mis or light", name_of(direct),
                         emitters.has_delta_lights() ? "lights without extent (directional, directionalarea, point, projector, spot)"
                                                     : "light from infinitely far away (constant, envmap, sunsky)"));
 }
@@ -40,15 +41,14 @@ SamplingSettings settings_of(const method::Auto&, const Scene&) {
 }
 template <HasFields M>
 SamplingSettings settings_of(const M&, const Scene&) {
-    throw InputError(fmt::format("--method {} has no samples of paths: its bounces are read from fields on patches", M::name));
+    throw InputError(fmt::format("{} has no samples of paths: its bounces are read from fields on patches", M::name));
 }
 
 }  // namespace
 
 void expect_visible_emitters(const char* method, const Scene& scene) {
     if (scene.hide_emitters)
-        throw InputError(
-            fmt::format("--method {} cannot hide emitters, as the scene's integrator asks for; take --method walk", method));
+        throw InputError(fmt::format("{} cannot hide emitters, as the scene's integrator asks for; take walk", method));
 }
 
 SamplingSettings sampling_settings(const Method& method, const Scene& scene, const Plan& plan, std::uint64_t seed) {

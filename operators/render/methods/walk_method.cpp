@@ -45,12 +45,12 @@ std::vector<MethodOption> Walk::own_options() {
 
 void Walk::expect_sense(bool lights) const {
     if (lights && !asks_lights(direct))
-        throw InputError(fmt::format("--lights chooses among lights, and --direct {} asks none; take light, solid-angle or mis",
-                                     name_of(direct)));
+        throw OptionError("lights", fmt::format(" chooses among lights, and direct = {} asks none; take light, solid-angle or mis",
+                                                name_of(direct)));
     if (tree && (split != Split{} || roulette != Roulette{}))
-        throw InputError("--tree chooses what --split and --roulette say; take it alone");
+        throw OptionError("tree", " chooses what split and roulette say; take it alone");
     if (reuse && (tree || adaptive || split != Split{}))
-        throw InputError("--reuse needs one walk of each pixel; take it without --tree, --adaptive and --split");
+        throw OptionError("reuse", " needs one walk of each pixel; take it without tree, adaptive and split");
 }
 
 std::optional<Decisions> Walk::leaves_out() const {

@@ -125,7 +125,7 @@ PlanPart rays_for_light(const Look& at) {
                     &LeftOut::rays_for_light);
 }
 PlanPart roulette(const Look&) {
-    return left_out(roulette_part, "all bounces with pictures are wanted of every walk; --roulette asks for it",
+    return left_out(roulette_part, "all bounces with pictures are wanted of every walk; the option roulette asks for it",
                     "one random number a bounce");
 }
 PlanPart angular_unknowns(const Look& at) {

@@ -8,7 +8,7 @@ namespace {
 
 auto find_start() {
     return reinterpret_cast<Petsc* (*)(const std::string&)>(
-        function_in_module("libneumann_petsc.so", "neumann_petsc", "--petsc needs neumann with -DNEUMANN_MPI=ON"));
+        function_in_module("libneumann_petsc.so", "neumann_petsc", "PETSc needs neumann with -DNEUMANN_MPI=ON"));
 }
 
 }  // namespace

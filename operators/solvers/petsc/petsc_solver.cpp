@@ -12,7 +12,7 @@ namespace {
 
 std::vector<std::string> told_of(const Petsc& petsc) {
     std::vector<std::string> told;
-    for (const std::string& option : petsc.unused_options()) told.push_back("--petsc: nothing has asked for the option " + option);
+    for (const std::string& option : petsc.unused_options()) told.push_back("PETSc: nothing has asked for the option " + option);
     return told;
 }
 

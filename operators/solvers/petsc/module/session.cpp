@@ -101,7 +101,7 @@ void check(PetscErrorCode code) {
     if (thrown_by_matrix) std::rethrow_exception(std::exchange(thrown_by_matrix, nullptr));
     const bool input = code == PETSC_ERR_ARG_UNKNOWN_TYPE || code == PETSC_ERR_ARG_OUTOFRANGE || code == PETSC_ERR_USER_INPUT ||
                        code == PETSC_ERR_ARG_WRONG || code == PETSC_ERR_SUP;
-    if (input) throw InputError("--petsc: " + text);
+    if (input) throw OptionError("petsc", ": " + text);
     throw RunError(text);
 }
 
