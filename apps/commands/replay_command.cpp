@@ -64,7 +64,7 @@ int replay_command(const ReplayRequest& request) {
     const auto [samples, name] = samplers.find(chosen.name);
     const Replay found = samples.replay(name);
     const Pixel pixel = pixel_of(scene.film, chosen.name.pixel);
-    const PathSampler& paths = samples.sampler().paths();
+    const PathSampler& paths = samples.sampler().path_sampler();
     const char* const of_render = name_of(run.render.method);
     const std::string method =
         paths.parts() > 0 ? fmt::format("{} ({})", of_render, paths.part_of(name).method) : std::string(of_render);

@@ -189,17 +189,17 @@ Json samples_json(const BounceSeries& series) {
         if (paths->first_replicate > 0) json["first_replicate"] = paths->first_replicate;
         for (const SeedRange& range : paths->merged)
             json["merged"].push_back({{"seed", range.seed}, {"first_replicate", range.first}, {"replicates", range.count}});
-        if (const auto* cache = as<CachePaths>(paths->paths)) json["records"] = records_json(cache->records());
-        if (const auto* photon = as<PhotonPaths>(paths->paths))
+        if (const auto* cache = as<CachePaths>(paths->path_method)) json["records"] = records_json(cache->records());
+        if (const auto* photon = as<PhotonPaths>(paths->path_method))
             json["photons"] = photons_json(photon->pilot(), *paths, series.report.bounces.size() - 1);
         if (paths->most_of_pixel > 0)
             json["of_a_pixel_in_a_replicate"] = {{"fewest", paths->fewest_of_pixel}, {"most", paths->most_of_pixel}};
-        if (const auto* walk = as<WalkPaths>(paths->paths); walk && walk->tree()) {
+        if (const auto* walk = as<WalkPaths>(paths->path_method); walk && walk->tree()) {
             json["at_depths"] = {1.0};
             for (const double ratio : walk->tree()->of_depths)
                 json["at_depths"].push_back(json["at_depths"].back().get<double>() * ratio);
         }
-        if (const auto* mixed = as<MixedPaths>(paths->paths)) json["mixture"] = mixture_json(mixed->mixture());
+        if (const auto* mixed = as<MixedPaths>(paths->path_method)) json["mixture"] = mixture_json(mixed->mixture());
         if (!paths->chains.empty()) json["chains"] = chains_json(paths->chains);
         for (const auto& [albedo, walk] : paths->furnaces)
             json["walks_in_a_furnace"].push_back({{"albedo", albedo},

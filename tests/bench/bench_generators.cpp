@@ -5,11 +5,10 @@
 //     bench_generators [SCENE.xml [RESOLUTION [SECONDS]]]
 #include "core/reader/read_scene.h"
 #include "operators/paths/guided/guide.h"
-#include "operators/render/from_paths/classic_paths.h"
 #include "operators/render/from_paths/guided_paths.h"
 #include "operators/render/from_paths/rendered_series.h"
 #include "operators/render/from_paths/splat_sampler.h"
-#include "operators/render/from_paths/surface_paths.h"
+#include "tests/physics/paths_of.h"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -61,8 +60,8 @@ int main(int argc, char** argv) {
     const std::pair<const char*, std::shared_ptr<const PathMethod>> methods[] = {
         {"walk", plain_walks()},
         {"guided", nullptr},  // made below
-        {"surface", std::make_shared<const SurfacePaths>()},
-        {"classic", std::make_shared<const ClassicPaths>()},
+        {"surface", physics::paths_of(method::Surface{})},
+        {"classic", physics::paths_of(method::Classic{})},
         {"light", std::make_shared<const LightPaths>()},
         {"bidirectional", std::make_shared<const BidirectionalPaths>()}};
     for (const auto& [name, method] : methods) {

@@ -3,9 +3,9 @@
 #include "operators/paths/walk/walk.h"
 #include "operators/render/from_paths/metropolis_sampler.h"
 #include "operators/render/from_paths/splat_sampler.h"
-#include "operators/render/from_paths/surface_paths.h"
 #include "operators/render/report/checkup.h"
 #include "operators/render/report/watched_paths.h"
+#include "tests/physics/paths_of.h"
 #include "tests/physics/picture_blocks.h"
 #include "tests/physics/scene_maker.h"
 #include "tests/physics/seed.h"
@@ -112,7 +112,7 @@ TEST(EnergyBalance, IsKeptInRoomsOfManyThings) {
             {"light", std::make_shared<const LightPaths>()},
             {"bidirectional", std::make_shared<const BidirectionalPaths>()},
             {"metropolis", std::make_shared<const MetropolisPaths>()},
-            {"surface", std::make_shared<const SurfacePaths>()}};
+            {"surface", physics::paths_of(method::Surface{})}};
         for (const auto& [name, method] : methods) {
             SamplingSettings settings{.method = method,
                                       .walk = {.bounces = bounces, .rest_probability = 0.0},
@@ -146,13 +146,13 @@ TEST(EnergyBalanceSlow, OfAMixtureIsThatOfItsMethods) {
     const PictureSampler sampler(scene, settings);
     const Checkup found = *check_up(scene, sampler, 64);
     std::uint64_t paths = 0, rays = 0;
-    for (std::uint64_t part = 0; part < sampler.paths().parts(); ++part) {
-        const Checkup own = *check_up(scene, sampler.paths().part_of({0, part}).sampler, 64);
+    for (std::uint64_t part = 0; part < sampler.path_sampler().parts(); ++part) {
+        const Checkup own = *check_up(scene, sampler.path_sampler().part_of({0, part}).sampler, 64);
         EXPECT_GT(own.rays, 1000u);
         paths += own.paths;
         rays += own.rays;
     }
-    EXPECT_GT(sampler.paths().parts(), 1u);
+    EXPECT_GT(sampler.path_sampler().parts(), 1u);
     EXPECT_EQ(found.paths, paths);
     EXPECT_EQ(found.rays, rays);
     EXPECT_EQ(found.self_hits, 0u);
@@ -195,7 +195,7 @@ TEST(SelfHits, ANarrowGapIsNone) {
 TEST(SelfHits, PointsThatAreChosenAreNone) {
     const Scene scene = read_scene(SCENES "/floating-panels/floating-panels.xml", {{"res", "32"}});
     for (const bool are_chosen : {false, true}) {
-        const SamplingSettings settings{.method = are_chosen ? std::make_shared<const SurfacePaths>() : plain_walks(),
+        const SamplingSettings settings{.method = are_chosen ? physics::paths_of(method::Surface{}) : plain_walks(),
                                         .walk = {.bounces = 3, .rest_probability = 0.0},
                                         .seed = physics::fixed_seed,
                                         .replicate_size = 16};

@@ -7,7 +7,7 @@
 #include "operators/render/from_paths/guided_paths.h"
 #include "operators/render/from_paths/photon_sampler.h"
 #include "operators/render/from_paths/splat_sampler.h"
-#include "operators/render/from_paths/surface_paths.h"
+#include "tests/physics/paths_of.h"
 
 #include <gtest/gtest.h>
 
@@ -36,7 +36,7 @@ std::shared_ptr<const PathMethod> made(const std::string& method) {
     if (method == "photon")
         return std::make_shared<const PhotonPaths>(
             std::make_shared<const PhotonPilot>(room(), PhotonChoice{1000, {}, false}, SamplerKind::sobol, 5));
-    if (method == "surface") return std::make_shared<const SurfacePaths>();
+    if (method == "surface") return physics::paths_of(method::Surface{});
     return plain_walks();
 }
 

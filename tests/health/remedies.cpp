@@ -1,10 +1,9 @@
 // What a firefly's path says may help against it: a lamp that is found by chance behind glass is found from its own end,
 // where the path has a place to be joined; one that could have been asked for is to be asked for.
-#include "operators/render/from_paths/pointwise_paths.h"
 #include "operators/render/from_paths/splat_sampler.h"
-#include "operators/render/from_paths/surface_paths.h"
 #include "operators/render/report/remedy.h"
 #include "operators/render/report/replay.h"
+#include "tests/physics/paths_of.h"
 #include "tests/physics/scene_maker.h"
 
 #include <gtest/gtest.h>
@@ -82,8 +81,8 @@ TEST(Remedies, OfOtherMethods) {
     const auto of = [&](const std::shared_ptr<const PathMethod>& method, std::size_t quantity) {
         return remedies(scene, PictureSampler(scene, settings(method)), {0, 0}, quantity);
     };
-    EXPECT_EQ(of(std::make_shared<const PointwisePaths>(), 2), Remedies{Remedy::bidirectional});
-    EXPECT_EQ(of(std::make_shared<const SurfacePaths>(), 2), Remedies{Remedy::ask_lights});
+    EXPECT_EQ(of(physics::paths_of(method::Pointwise{}), 2), Remedies{Remedy::bidirectional});
+    EXPECT_EQ(of(physics::paths_of(method::Surface{}), 2), Remedies{Remedy::ask_lights});
     EXPECT_EQ(of(std::make_shared<const LightPaths>(), 2), Remedies{Remedy::bidirectional});
     EXPECT_EQ(of(std::make_shared<const BidirectionalPaths>(), 2), Remedies());
     EXPECT_EQ(of(std::make_shared<const BidirectionalPaths>(), bounces + 1), Remedies{Remedy::more_bounces});

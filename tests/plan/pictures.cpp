@@ -3,9 +3,8 @@
 #include "tests/physics/pictures.h"
 #include "core/reader/read_scene.h"
 #include "operators/render/from_fields/field_rendering.h"
-#include "operators/render/from_paths/classic_paths.h"
-#include "operators/render/from_paths/surface_paths.h"
 #include "operators/render/plan/plan.h"
+#include "tests/physics/paths_of.h"
 #include "tests/physics/seed.h"
 #include "tests/plan/scenes.h"
 
@@ -127,8 +126,8 @@ TEST(PlannedPictures, OfScenesThatNeedLittle) {
 TEST(PlannedPictures, OfOtherMethods) {
     for (const Scene& scene : {lit_room({0.7, 0.5, 0.3}), box_under(poles()), point_lit_room({0.7, 0.5, 0.3})})
         for (const bool surface : {true, false}) {
-            std::shared_ptr<const PathMethod> method = std::make_shared<const ClassicPaths>();
-            if (surface) method = std::make_shared<const SurfacePaths>();
+            std::shared_ptr<const PathMethod> method = physics::paths_of(method::Classic{});
+            if (surface) method = physics::paths_of(method::Surface{});
             LeftOut left_out = make_plan(scene).walk;
             expect_same_bits(rendered(scene, left_out, SamplerKind::sobol, 0.0, method),
                              rendered(scene, {}, SamplerKind::sobol, 0.0, method));

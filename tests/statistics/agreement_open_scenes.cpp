@@ -2,10 +2,10 @@
 // picture.
 #include "core/reader/read_scene.h"
 #include "operators/render/from_fields/field_rendering.h"
-#include "operators/render/from_paths/pointwise_paths.h"
 #include "operators/render/from_paths/rendered_series.h"
 #include "operators/render/report/series_report.h"
 #include "operators/statistics/picture_statistics.h"
+#include "tests/physics/paths_of.h"
 
 #include <gtest/gtest.h>
 
@@ -78,8 +78,7 @@ void expect_agreement(const std::string& lights, bool found_by_chance) {
     expect_alike(means(sample(scene, plain_walks(), DirectLight::light, 2, 2048)), walked, "walk by lights alone");
     if (found_by_chance) {
         expect_alike(means(sample(scene, plain_walks(), DirectLight::bsdf, 3, 2048)), walked, "walk by chance alone");
-        expect_alike(means(sample(scene, std::make_shared<const PointwisePaths>(), DirectLight::mis, 4, 1024)), walked,
-                     "pointwise");
+        expect_alike(means(sample(scene, physics::paths_of(method::Pointwise{}), DirectLight::mis, 4, 1024)), walked, "pointwise");
     }
     for (const FieldReading method : {FieldReading::matrix, FieldReading::gather}) {
         FieldSettings settings;

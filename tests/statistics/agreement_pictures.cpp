@@ -3,7 +3,7 @@
 #include "core/reader/read_scene.h"
 #include "operators/render/from_paths/guided_paths.h"
 #include "operators/render/from_paths/picture_sampler.h"
-#include "operators/render/from_paths/pointwise_paths.h"
+#include "tests/physics/paths_of.h"
 #include "tests/physics/seed.h"
 
 #include <gtest/gtest.h>
@@ -68,7 +68,7 @@ void compare_blocks(const Estimate& a, const Estimate& b, int size, const std::s
 // bounce 0 and rises to 1% for bounce 4, in the light's weak blue to 2%.
 TEST(AgreementSlow, OfTheOperatorsAndTheWalkInEveryBounce) {
     const Scene scene = read_scene(SCENES "/cornell-box/cornell-box.xml", {{"res", std::to_string(resolution)}});
-    const auto operators = render(scene, std::make_shared<const PointwisePaths>(), DirectLight::bsdf, 1, 8192);
+    const auto operators = render(scene, physics::paths_of(method::Pointwise{}), DirectLight::bsdf, 1, 8192);
     Comparison found;
     for (const DirectLight direct : {DirectLight::mis, DirectLight::bsdf, DirectLight::light}) {
         const auto walk =

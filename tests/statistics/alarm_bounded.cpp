@@ -2,12 +2,10 @@
 #include "core/emitter/environment_map.h"
 #include "operators/paths/guided/guide.h"
 #include "operators/render/from_paths/bounded_samples.h"
-#include "operators/render/from_paths/classic_paths.h"
 #include "operators/render/from_paths/guided_paths.h"
-#include "operators/render/from_paths/pointwise_paths.h"
 #include "operators/render/from_paths/splat_sampler.h"
-#include "operators/render/from_paths/surface_paths.h"
 #include "operators/render/report/series_report.h"
+#include "tests/physics/paths_of.h"
 #include "tests/physics/scene_maker.h"
 
 #include <gtest/gtest.h>
@@ -49,11 +47,11 @@ std::shared_ptr<const PathMethod> made(const std::string& method, const Scene& s
     if (method == "guided")
         return std::make_shared<const GuidedPaths>(
             std::make_shared<const Guide>(scene, GuideSettings{.patches = 200, .rays = 256, .bounces = bounces, .seed = seed}));
-    if (method == "pointwise") return std::make_shared<const PointwisePaths>();
+    if (method == "pointwise") return physics::paths_of(method::Pointwise{});
     if (method == "bidirectional") return std::make_shared<const BidirectionalPaths>();
     if (method == "light") return std::make_shared<const LightPaths>();
-    if (method == "surface") return std::make_shared<const SurfacePaths>();
-    if (method == "classic") return std::make_shared<const ClassicPaths>();
+    if (method == "surface") return physics::paths_of(method::Surface{});
+    if (method == "classic") return physics::paths_of(method::Classic{});
     return plain_walks();
 }
 

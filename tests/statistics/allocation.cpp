@@ -166,11 +166,11 @@ TEST(Allocation, CountsTheRaysOfWhatPixelsShare) {
     const PictureSampler sampler(scene, settings);
     std::atomic<std::uint64_t> own = 0;
     const std::optional<std::uint64_t> shared =
-        sampler.paths().own_samples(0,
-                                    [&](const PixelGroup&, std::span<const Rgb>, std::span<const std::uint64_t> rays) {
-                                        own += std::accumulate(rays.begin(), rays.end(), std::uint64_t{0});
-                                    },
-                                    {});
+        sampler.path_sampler().own_samples(0,
+                                           [&](const PixelGroup&, std::span<const Rgb>, std::span<const std::uint64_t> rays) {
+                                               own += std::accumulate(rays.begin(), rays.end(), std::uint64_t{0});
+                                           },
+                                           {});
     ASSERT_TRUE(shared);
     Tally tally(sampler.quantities());
     (void)sampler.run(0, 1, tally);

@@ -3,7 +3,7 @@
 #include "core/reader/read_scene.h"
 #include "operators/render/from_paths/picture_sampler.h"
 #include "operators/render/from_paths/splat_sampler.h"
-#include "operators/render/from_paths/surface_paths.h"
+#include "tests/physics/paths_of.h"
 #include "tests/physics/seed.h"
 
 #include <fmt/format.h>
@@ -115,7 +115,7 @@ TEST(PathGeneratorsSlow, AgreeOnTheScenesThatCompareThem) {
         const std::pair<const char*, std::shared_ptr<const PathMethod>> others[] = {
             {"light", std::make_shared<const LightPaths>()},
             {"bidirectional", std::make_shared<const BidirectionalPaths>()},
-            {"surface", std::make_shared<const SurfacePaths>()}};
+            {"surface", physics::paths_of(method::Surface{})}};
         for (const auto& [word, method] : others) {
             const bool on_surfaces = std::string(word) == "surface";
             if (method->paths(scene) != Paths::all) continue;

@@ -146,7 +146,7 @@ RecordedSamplers::Place RecordedSamplers::find(SampleName name) {
     if (!run_.merged.empty()) expect_sample(asked, 0, asked - name.sample);
     const RecordedSamples& samples = of_seed(0);
     const std::uint64_t replicates = run_.samples / run_.render.replicate_size, first = run_.first / run_.render.replicate_size;
-    if (const PathSampler& all = samples.sampler().paths(); all.parts() > 0) {
+    if (const PathSampler& all = samples.sampler().path_sampler(); all.parts() > 0) {
         const auto& [sampler, name_there, part, method] = all.part_of(name);
         const std::uint64_t of_part = sampler.layout().size(pixel), n = replicates * of_part, begin = first * of_part;
         if (name_there.sample < begin || name_there.sample - begin >= n)

@@ -10,7 +10,7 @@ namespace {
 
 ShownSeries shown_series(const BounceSeries& series, const Scene& scene) {
     const auto* paths = std::get_if<PathRecord>(&series.record);
-    const auto* mixed = paths ? as<MixedPaths>(paths->paths) : nullptr;
+    const auto* mixed = paths ? as<MixedPaths>(paths->path_method) : nullptr;
     const std::size_t bounces = series.report.bounces.size();
     return {bounces,
             series.rest.has_value(),

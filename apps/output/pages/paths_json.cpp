@@ -153,7 +153,7 @@ Json pixel_json(const RecordedRun& run, const Scene& scene, RecordedSamplers& sa
         const Replay replayed = samples.replay(name);
         Json path = {{"sample", sample}, {"why", why}};
         if (history) path["part"] = history->part(sample - first);
-        if (sampler.paths().parts() > 0) path["method"] = sampler.paths().part_of(name).method;
+        if (sampler.path_sampler().parts() > 0) path["method"] = sampler.path_sampler().part_of(name).method;
         path["terms"] = Json::array();
         for (const Rgb& term : replayed.terms) path["terms"].push_back(as_json(term));
         path["rays"] = Json::array();

@@ -143,7 +143,7 @@ std::shared_ptr<const Allocation> allocate(const Scene& scene, const SamplingSet
         all_rays += n;
         for (std::uint32_t pixel = group.begin; pixel < group.end; ++pixel) cost[pixel] = static_cast<double>(n) / group.paths();
     };
-    const std::optional<std::uint64_t> shared = sampler.paths().own_samples(0, measure, watch);
+    const std::optional<std::uint64_t> shared = sampler.path_sampler().own_samples(0, measure, watch);
     if (!shared) throw Stopped();
 
     BlockCosts blocks{across * down, {}, std::vector<double>(across * down, 0.0)};

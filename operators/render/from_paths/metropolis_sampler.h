@@ -52,7 +52,6 @@ public:
 
     bool sample_picture(std::uint64_t replicate, std::vector<Rgb>& picture, SampleRanges& ranges, Tally& tally,
                         const Watch& watch) const override;
-    bool has_own_samples() const override { return false; }
     // Runs the chains of these names again, and traces all independent paths.
     std::vector<Rgb> retrace(std::uint64_t replicate, std::uint32_t first, PathObserver& observer) const override;
     // The independent paths, from which chains start.

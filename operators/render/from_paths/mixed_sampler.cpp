@@ -25,17 +25,17 @@ std::shared_ptr<const PathSampler> MixedPaths::sampler(const Scene& scene, const
 bool MixedPaths::is_bounded(const SamplingSettings& settings) const { return settings.walk.direct.direct == DirectLight::mis; }
 
 bool MixedPaths::has_events() const {
-    return std::ranges::all_of(mixture_->parts, [](const Mixture::Part& part) { return part.paths->has_events(); });
+    return std::ranges::all_of(mixture_->parts, [](const Mixture::Part& part) { return part.path_method->has_events(); });
 }
 
 bool MixedPaths::has_chains() const {
-    return std::ranges::any_of(mixture_->parts, [](const Mixture::Part& part) { return part.paths->has_chains(); });
+    return std::ranges::any_of(mixture_->parts, [](const Mixture::Part& part) { return part.path_method->has_chains(); });
 }
 
 SamplingSettings settings_of_part(const SamplingSettings& settings, const Mixture& mixture, std::size_t part) {
     const Mixture::Part& of = mixture.parts[part];
     SamplingSettings own = settings;
-    own.method = of.paths;
+    own.method = of.path_method;
     own.allocation = of.allocation;
     own.walk.left_out = of.left_out;
     if (!of.allocation) own.replicate_size = Allocation::size_of(settings.replicate_size, of.exponent);
@@ -51,7 +51,7 @@ MixedSampler::MixedSampler(const Scene& scene, const SamplingSettings& settings,
     for (std::size_t part = 0; part < mixture_->parts.size(); ++part) {
         parts_.push_back(std::make_shared<const PictureSampler>(scene, settings_of_part(settings, *mixture_, part)));
         const SampleLayout& layout = parts_.back()->layout();
-        splats_.push_back(mixture_->parts[part].paths->splats()
+        splats_.push_back(mixture_->parts[part].path_method->splats()
                               ? static_cast<double>(layout.paths()) / layout.pixels() / settings.replicate_size
                               : 0.0);
     }

@@ -19,7 +19,7 @@ struct Allocation;
 struct Mixture {
     struct Part {
         std::string method;  // its name
-        std::shared_ptr<const PathMethod> paths;
+        std::shared_ptr<const PathMethod> path_method;
         LeftOut left_out = {};                              // by the plan
         std::shared_ptr<const Allocation> allocation = {};  // some pixels may have no samples
         std::int8_t exponent = 0;                           // of the samples of all pixels, as an allocation's, where there is none

@@ -28,7 +28,7 @@ MixtureTrial::MixtureTrial(const Scene& view, const SamplingSettings& settings, 
       sum_of_means_(sampler_.quantities(), 0.0),
       of_squares_(sum_of_means_),
       rays_of_sample_(pixels(), 0.0) {
-    if (!sampler_.paths().has_own_samples()) return;  // go_on() counts
+    if (!sampler_.path_sampler().has_own_samples()) return;  // go_on() counts
     std::atomic<std::uint64_t> all = 0;
     const OwnSamples count = [&](const PixelGroup& group, std::span<const Rgb>, std::span<const std::uint64_t> rays) {
         const std::uint64_t n = std::accumulate(rays.begin(), rays.end(), std::uint64_t{0});
@@ -36,7 +36,7 @@ MixtureTrial::MixtureTrial(const Scene& view, const SamplingSettings& settings, 
         for (std::uint32_t pixel = group.begin; pixel < group.end; ++pixel)
             rays_of_sample_[pixel] = static_cast<double>(n) / group.paths();
     };
-    const std::optional<std::uint64_t> shared = sampler_.paths().own_samples(0, count, watch);
+    const std::optional<std::uint64_t> shared = sampler_.path_sampler().own_samples(0, count, watch);
     if (!shared) throw Stopped();
     rays_ = all + *shared;
 }
@@ -48,7 +48,7 @@ void MixtureTrial::go_on(std::uint32_t replicates, const Watch& watch) {
         std::vector<Rgb> picture(sums_.size(), Rgb(0.0));
         SampleRanges ranges;
         ranges.of.resize(picture.size());
-        if (!sampler_.paths().sample_picture(static_cast<std::uint64_t>(replicates_), picture, ranges, tally, watch))
+        if (!sampler_.path_sampler().sample_picture(static_cast<std::uint64_t>(replicates_), picture, ranges, tally, watch))
             throw Stopped();
         std::vector<double> means(Q, 0.0);
         for (std::size_t i = 0; i < picture.size(); ++i) {
@@ -63,7 +63,7 @@ void MixtureTrial::go_on(std::uint32_t replicates, const Watch& watch) {
         replicates_ += 1.0;
     }
     rays_ += std::accumulate(tally.rays.begin(), tally.rays.end(), std::uint64_t{0});
-    if (!sampler_.paths().has_own_samples())
+    if (!sampler_.path_sampler().has_own_samples())
         std::ranges::fill(rays_of_sample_, static_cast<double>(rays_) / (samples() * pixels()));
 }
 

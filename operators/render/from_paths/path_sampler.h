@@ -49,7 +49,7 @@ public:
 
     // The samples of all pixels without what paths from the lights bring to pixels all over the film. Returns the rays cast for
     // what pixels share; nothing if `watch` stopped it. std::logic_error where all pixels share all paths.
-    virtual bool has_own_samples() const { return true; }
+    virtual bool has_own_samples() const { return false; }
     virtual std::optional<std::uint64_t> own_samples(std::uint64_t replicate, const OwnSamples& each, const Watch& watch) const;
 
     // Traces one group of paths again and reports it to `observer`; `first` is the first path of the group. Returns the samples,

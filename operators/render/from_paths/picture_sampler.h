@@ -30,7 +30,7 @@ public:
     std::size_t quantities() const { return settings_.quantities(); }
     const Settings& settings() const { return settings_; }
     const SampleLayout& layout() const { return layout_; }
-    const PathSampler& paths() const { return *paths_; }
+    const PathSampler& path_sampler() const { return *paths_; }
 
     // Samples replicates first … first + count − 1 of every pixel; count is a power of two that divides first. Adds to `tally`,
     // which holds the earlier replicates, unless `watch` stops it: then the work is dropped. watch.progress gets the fraction of

@@ -35,7 +35,7 @@ struct PathRecord {
     // For `walk`: (albedo, the cost and second moment of a walk in a furnace of that albedo), for the scene's largest albedo and
     // others near 1.
     std::vector<std::pair<double, FurnaceWalk>> furnaces;
-    std::shared_ptr<const PathMethod> paths;               // with what was made ready before the first sample
+    std::shared_ptr<const PathMethod> path_method;         // with what was made ready before the first sample
     std::uint32_t fewest_of_pixel = 0, most_of_pixel = 0;  // samples in a replicate, where pixels have different numbers
     std::vector<ChainStatistics> chains;                   // of `metropolis`, for bounces 0 … N
     std::optional<Health> health;                          // none if only pictures were wanted

@@ -14,10 +14,10 @@ constexpr std::uint64_t stream = 0x66697273ull;  // another seed than the pictur
 constexpr int most_pixels = 192, bounces = 6;
 constexpr std::size_t most_shapes = 20'000;
 
-bool makes_all_paths(const Method& method) {
+bool shows_fields_first(const Method& method) {
     return std::visit(
         []<class M>(const M&) {
-            if constexpr (MakesPaths<M>) return M::makes_all_paths;
+            if constexpr (MakesPaths<M>) return M::shows_fields_first;
             return false;
         },
         method);
@@ -26,7 +26,7 @@ bool makes_all_paths(const Method& method) {
 }  // namespace
 
 void show_first_pictures(const Scene& scene, const Method& method, const Goal& goal, const Watch& watch) {
-    if (!watch.show || goal.colors || !makes_all_paths(method) || scene.geometry.shapes().size() > most_shapes) return;
+    if (!watch.show || goal.colors || !shows_fields_first(method) || scene.geometry.shapes().size() > most_shapes) return;
     FieldSettings settings;
     settings.bounces = std::min(goal.bounces.value_or(scene.bounces.value_or(bounces)), bounces);
     if (expected_rays(with_default_limits(goal), scene.film, settings.bounces) < rays_of_a_long_render) return;

@@ -67,8 +67,9 @@ struct PathOptions {
     // Nothing: it leaves nothing out.
     std::optional<Decisions> leaves_out() const { return std::nullopt; }
     std::optional<FieldNeeds> needs() const { return std::nullopt; }
-    static constexpr bool makes_all_paths = false;  // in every scene, so that pictures by fields show what it will make
-    static constexpr bool is_studied = true;        // by a study that names no methods
+    static constexpr bool shows_fields_first = false;  // pictures by fields, which show what it will make
+    static constexpr bool is_studied = true;           // by a study that names no methods
+    static constexpr bool is_biased = false;
     static constexpr const char* why_no_replay = "";
     bool operator==(const PathOptions&) const = default;
 };
@@ -80,7 +81,7 @@ struct Auto : PathOptions {
         "of walk, guided, corrected and bidirectional the one that promises least error in this scene, by a short pilot, the "
         "default "
         "(walk, if an option is given that auto does not have, or the render is small)";
-    static constexpr bool makes_all_paths = true;
+    static constexpr bool shows_fields_first = true;
     static constexpr bool is_studied = false;
     std::optional<LeastError> adaptive = {};  // as of the walk; default: all, if a pilot for it pays
     bool bias_allowed = false;                // if it may be one of those with a bias, which they state
@@ -91,7 +92,7 @@ struct Auto : PathOptions {
 struct Walk : PathOptions {
     static constexpr const char* name = "walk";
     static constexpr const char* help = "one walk from the camera for all bounces";
-    static constexpr bool makes_all_paths = true;
+    static constexpr bool shows_fields_first = true;
     DirectLightSettings direct = {};
     Roulette roulette = {};
     Split split = {};
@@ -110,7 +111,7 @@ struct Walk : PathOptions {
 struct Guided : PathOptions {
     static constexpr const char* name = "guided";
     static constexpr const char* help = "walks with directions sampled from a matrix solution";
-    static constexpr bool makes_all_paths = true;
+    static constexpr bool shows_fields_first = true;
     std::optional<std::size_t> patches = {};
     std::optional<std::uint32_t> directions = {};
     std::optional<LeastError> adaptive = {};  // as of the walk
@@ -129,7 +130,7 @@ struct Guided : PathOptions {
 struct Corrected : PathOptions {
     static constexpr const char* name = "corrected";
     static constexpr const char* help = "walks that read approximate fields on patches and remove their errors";
-    static constexpr bool makes_all_paths = true;
+    static constexpr bool shows_fields_first = true;
     std::optional<std::size_t> patches = {};
     std::optional<std::uint32_t> directions = {};
     std::optional<LeastError> adaptive = {};  // as of the walk
@@ -167,7 +168,7 @@ struct Light : PathOptions {
 struct Bidirectional : PathOptions {
     static constexpr const char* name = "bidirectional";
     static constexpr const char* help = "walks from both ends, joined everywhere";
-    static constexpr bool makes_all_paths = true;
+    static constexpr bool shows_fields_first = true;
     DirectLightSettings direct = {};  // must be multiple importance sampling: it both samples lights and hits them
     Roulette roulette = {};
     Split split = {};
@@ -236,7 +237,7 @@ struct Mixed : PathOptions {
     static constexpr const char* name = "mixed";
     static constexpr const char* help =
         "walk, guided, corrected, bidirectional, light and metropolis, each for the blocks and the bounces where it is best";
-    static constexpr bool makes_all_paths = true;
+    static constexpr bool shows_fields_first = true;
     static constexpr bool is_studied = false;
     std::optional<LeastError> adaptive = {};  // what it makes least; default: all
 
@@ -260,7 +261,7 @@ struct Classic : PathOptions {
 struct Pointwise : PathOptions {
     static constexpr const char* name = "pointwise";
     static constexpr const char* help = "each bounce by itself, slow and plain";
-    static constexpr bool makes_all_paths = true;
+    static constexpr bool shows_fields_first = true;
     static constexpr bool is_studied = false;
     static constexpr const char* why_no_replay = "each of its bounces is asked for anew";
 
@@ -273,6 +274,7 @@ struct Pointwise : PathOptions {
 struct FieldOptions {
     std::optional<std::size_t> patches = {};
     std::optional<std::uint32_t> directions = {};  // rays per side of a patch, in all replicates together
+    static constexpr bool is_biased = true;
     bool operator==(const FieldOptions&) const = default;
 };
 
@@ -331,11 +333,7 @@ inline std::optional<LeastError> adaptive_of(const Method& method) {
 
 // Whether its pictures differ from the terms by an error that samples do not show, and estimate it.
 inline bool is_biased(const Method& method) {
-    return std::visit(
-        []<class M>(const M&) {
-            return HasFields<M> || requires { M::is_biased; };
-        },
-        method);
+    return std::visit([](const auto& m) { return m.is_biased; }, method);
 }
 
 }  // namespace neumann

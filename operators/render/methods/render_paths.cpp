@@ -199,7 +199,7 @@ PathRecord record_of(const RenderedSeries& sampled, const Method& method, const 
     if (verdict == RestVerdict::not_converging)
         record.why_no_rest = fmt::format("{} of {} walks had not ended after {} bounces and were given up", job.pilot().given_up(),
                                          job.pilot().walks(), job.pilot().bounces() + Pilot::give_up);
-    if (!prepares_fields(method)) record.paths = settings.method;  // fields are large, and nothing is told of them
+    if (!prepares_fields(method)) record.path_method = settings.method;  // fields are large, and nothing is told of them
     record.chains = sampled.tally.chains;
     if (settings.allocation) {
         SamplingSettings as_sampled = settings;

@@ -99,7 +99,7 @@ struct Inspection {
 Inspection inspect(const Scene& scene, const PictureSampler& sampler, std::uint64_t samples) {
     const SamplingSettings& settings = sampler.settings();
     const SampleLayout& layout = sampler.layout();
-    const auto paths = sampler.paths().to_inspect();
+    const auto paths = sampler.path_sampler().to_inspect();
     const std::uint64_t groups = paths->groups(),
                         all = groups * (paths->are_of_first_replicate() ? 1 : samples / settings.replicate_size);
     const auto length = static_cast<std::uint64_t>(settings.walk.bounces) + 1;
@@ -147,9 +147,9 @@ std::optional<EnergyBalance> balance_of(std::vector<std::vector<EnergyShares>> o
 std::optional<Checkup> check_up(const Scene& scene, const PictureSampler& sampler, std::uint64_t samples) {
     if (!sampler.settings().method->why_no_checkup().empty()) return std::nullopt;
     Inspection all;
-    const std::uint64_t parts = sampler.paths().parts();
+    const std::uint64_t parts = sampler.path_sampler().parts();
     for (std::uint64_t part = 0; part < parts; ++part) {
-        Inspection of_part = inspect(scene, sampler.paths().part_of({0, part}).sampler, samples);
+        Inspection of_part = inspect(scene, sampler.path_sampler().part_of({0, part}).sampler, samples);
         for (SelfHit& hit : of_part.self_hits) hit.name.sample = hit.name.sample * parts + part;
         all.add(std::move(of_part));
     }

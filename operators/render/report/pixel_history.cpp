@@ -28,7 +28,7 @@ OfReplicate retrace(const PictureSampler& sampler, std::uint32_t pixel, std::uin
     const std::size_t Q = sampler.quantities(), size = sampler.layout().size(pixel);
     const PlaceInGroup place = sampler.layout().place({pixel, replicate * size});
     NoOne no_one;
-    const std::vector<Rgb> group = sampler.paths().retrace(place.replicate, place.first, no_one);
+    const std::vector<Rgb> group = sampler.path_sampler().retrace(place.replicate, place.first, no_one);
     const auto begin = group.begin() + static_cast<std::ptrdiff_t>(place.path * Q);
     std::vector<Rgb> samples(begin, begin + static_cast<std::ptrdiff_t>(size * Q)), averaged = samples;
     PixelAverage work(Q);

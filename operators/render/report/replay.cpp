@@ -17,7 +17,7 @@ bool is_finite(const ReplayedStep& replayed) {
 }
 
 Replay replay(const PictureSampler& sampler, const SampleName& name) {
-    const PathSampler& paths = sampler.paths();
+    const PathSampler& paths = sampler.path_sampler();
     if (paths.parts() > 0) {
         const auto& [of_part, name_there, part, method] = paths.part_of(name);
         Replay replayed = replay(of_part, name_there);
