@@ -1,7 +1,7 @@
 // `neumann compare A B`: error metrics between two pictures or two output folders.
 #pragma once
 
-#include "apps/requests/compare_request.h"
+#include "apps/requests/requests_of_renders.h"
 
 namespace neumann {
 

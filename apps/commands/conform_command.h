@@ -1,7 +1,7 @@
 // `neumann conform DIR`: renders a folder of Mitsuba's regression scenes and tests the pictures against its references.
 #pragma once
 
-#include "apps/requests/conform_request.h"
+#include "apps/requests/requests_of_scenes.h"
 
 namespace neumann {
 

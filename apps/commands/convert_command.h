@@ -1,7 +1,7 @@
 // `neumann convert SCENE OUT.xml`: a scene of any format as a Mitsuba 3 file.
 #pragma once
 
-#include "apps/requests/convert_request.h"
+#include "apps/requests/requests_of_scenes.h"
 
 namespace neumann {
 

@@ -1,7 +1,7 @@
 // `neumann merge A B C -o DIR`: renders of one scene by different seeds, or parts of one, become one.
 #pragma once
 
-#include "apps/requests/merge_request.h"
+#include "apps/requests/requests_of_renders.h"
 
 namespace neumann {
 

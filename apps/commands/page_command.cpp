@@ -47,15 +47,8 @@ int page_command(const PageRequest& request) try {
         notes.emplace_back("strip-mixture.png is not made: no file has the weights that it shows");
     if (files.sheets) write_sheet_of_ways(folder, rendered);
     const auto convergence = rendered.text("convergence.csv");
-    if (files.tables) {
-        if (const auto report = rendered.report())
-            folder.write("series.csv", series_table(*report));
-        else
-            notes.emplace_back("series.csv is not made: run.json, of an earlier version, does not hold all of it");
-    }
-    if (!convergence && (files.page || files.tables))
-        notes.push_back(fmt::format("there is no convergence.csv, which nothing else holds{}",
-                                    files.page ? ": the page shows no errors against time" : ""));
+    if (!convergence && files.page)
+        notes.emplace_back("there is no convergence.csv, which nothing else holds: the page shows no errors against time");
     if (files.page) {
         if (packed.factor() > 1) notes.push_back(packed.reduction());
         const ExploredRun explored{rendered.run(),    convergence.value_or(""), shown.exposure,

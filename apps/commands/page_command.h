@@ -1,7 +1,7 @@
 // `neumann page DIR`: page, slides, strips and tables anew from the files of a render.
 #pragma once
 
-#include "apps/requests/page_request.h"
+#include "apps/requests/requests_of_renders.h"
 
 namespace neumann {
 

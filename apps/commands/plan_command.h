@@ -1,7 +1,7 @@
 // `neumann plan`: which parts of the program a scene needs, which are left out, and why.
 #pragma once
 
-#include "apps/requests/plan_request.h"
+#include "apps/requests/requests_of_scenes.h"
 
 namespace neumann {
 

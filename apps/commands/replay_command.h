@@ -1,7 +1,7 @@
 // `neumann replay`: one sample of a render traced again, with its path.
 #pragma once
 
-#include "apps/requests/replay_request.h"
+#include "apps/requests/requests_of_renders.h"
 
 namespace neumann {
 

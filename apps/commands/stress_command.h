@@ -1,7 +1,7 @@
 // `neumann stress`: runs all test cases with known answers.
 #pragma once
 
-#include "apps/requests/stress_request.h"
+#include "apps/requests/requests_of_scenes.h"
 #include "operators/experiments/known/cases.h"
 
 namespace neumann {

@@ -14,6 +14,7 @@
 #include "operators/render/methods/bounces.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -21,6 +22,7 @@
 #include <charconv>
 #include <cstdio>
 #include <filesystem>
+#include <set>
 
 namespace neumann {
 
@@ -84,18 +86,10 @@ void expect_growing(const char* option, const auto& values) {
 
 // Everything that must be unchanged to resume an interrupted study.
 Json identity(const StudyRequest& request, const Scene& scene) {
-    Json json;
-    json["scene"] = scene.hash;
-    json["definitions"] = request.scene.definitions;
-    json["methods"] = request.methods;
-    json["budgets"] = request.budgets;
-    json["samples"] = request.samples;
-    json["repeats"] = request.interval ? Json(nullptr) : Json(request.repeats);
-    json["interval"] = request.interval ? Json(*request.interval) : Json(nullptr);
-    json["bounces"] = request.bounces ? Json(*request.bounces) : Json(nullptr);
-    json["seed"] = request.seed;
-    json["reference"] = request.reference;
-    json["version"] = NEUMANN_VERSION;
+    Json json = {{"scene", scene.hash}, {"version", NEUMANN_VERSION}};
+    const std::set<std::string> free{"scene", "lenient", "error", "crop", "checkpoint"};
+    for (const Option<StudyRequest>& o : study_options().all)
+        if (o.lasts && !free.contains(o.name)) json[o.name] = fmt::format("{}", fmt::join(o.texts(request), ","));
     return json;
 }
 

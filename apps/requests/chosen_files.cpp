@@ -36,7 +36,7 @@ const std::vector<std::string>& all_file_groups() {
 }
 
 const std::vector<std::string>& page_file_groups() {
-    static const std::vector<std::string> all{"tables", "sheets", "strips", "page"};
+    static const std::vector<std::string> all{"sheets", "strips", "page"};
     return all;
 }
 

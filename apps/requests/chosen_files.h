@@ -19,7 +19,7 @@ struct ChosenFiles {
 // "pictures", "tables", "sheets", "strips", "page", which are written by default; and "layers" beside them.
 const std::vector<std::string>& file_groups();
 const std::vector<std::string>& all_file_groups();
-// Those that `neumann page` makes: "tables", "sheets", "strips", "page".
+// Those that `neumann page` makes: "sheets", "strips", "page".
 const std::vector<std::string>& page_file_groups();
 
 // Throws InputError for a name that is not one of them.

@@ -32,7 +32,7 @@ TEST_F(StudyResume, AfterAKillAndASignal) {
     EXPECT_EQ(refused(joined(arguments, {"--resume", "--seed", "5"})),
               "--resume: seed is 5, and the study that was cut off has 0\n");
     EXPECT_EQ(refused(joined(arguments, {"--resume", "-D", "height=4"})),
-              "--resume: definitions is {\"height\":\"4\"}, and the study that was cut off has {}\n");
+              "--resume: definitions is height=4, and the study that was cut off has nothing\n");
     // A line that was being written does not count.
     std::ofstream(path("a/study.journal"), std::ios::app) << "{\"run\":{\"meth";
     {

@@ -10,7 +10,6 @@
 #include <fmt/format.h>
 
 #include <fstream>
-#include <limits>
 #include <sstream>
 
 namespace neumann {
@@ -39,16 +38,6 @@ Json read_run(const fs::path& path) {
         throw InputError(fmt::format("{}: not a run.json of this version: {}", path.string(), error.what()));
     }
     return run;
-}
-
-double number(const Json& json, const char* name) {
-    const auto found = json.find(name);
-    return found != json.end() && found->is_number() ? found->get<double>() : std::numeric_limits<double>::infinity();
-}
-
-MeanWithError mean_from(const Json& json) {
-    return {json.at("mean").is_null() ? std::numeric_limits<double>::quiet_NaN() : json.at("mean").get<double>(),
-            number(json, "stderr"), number(json, "degrees_of_freedom")};
 }
 
 }  // namespace
@@ -90,38 +79,6 @@ std::optional<std::string> RenderedFolder::text(const std::string& name) const {
     std::ostringstream text;
     if (!(text << file.rdbuf())) throw InputError((path_ / name).string() + ": cannot be read");
     return text.str();
-}
-
-std::optional<SeriesReport> RenderedFolder::report() const {
-    try {
-        const auto seconds = run_.at("timing").find("seconds_of_bounces");
-        if (seconds == run_.at("timing").end() || seconds->size() != bounces()) return std::nullopt;
-        SeriesReport report;
-        for (std::size_t i = 0; i < bounces(); ++i) {
-            const Json& from = run_["bounces"][i];
-            BounceReport b;
-            b.mean = mean_from(from);
-            b.infinite_variance = from.at("interval95").is_string();
-            if (from.contains("ratio_estimate")) b.ratio = from["ratio_estimate"].get<double>();
-            b.bound = number(from, "tail_bound");
-            from.at("rays").get_to(b.rays);
-            seconds->at(i).get_to(b.seconds);
-            if (from.contains("discretisation")) {
-                const Json& d = from["discretisation"];
-                b.discretisation = DiscretisationReport{.mean = d.at("mean"),
-                                                        .worst = d.at("worst"),
-                                                        .worst_x = d.at("worst_pixel").at(0),
-                                                        .worst_y = d.at("worst_pixel").at(1),
-                                                        .relative = d.at("relative")};
-                report.sum_discretisation = b.discretisation;
-            }
-            if (from.contains("missing")) b.missing = mean_from(from["missing"]);
-            report.bounces.push_back(std::move(b));
-        }
-        return report;
-    } catch (const Json::exception& error) {
-        throw InputError(fmt::format("{}: not a run.json of this version: {}", (path_ / "run.json").string(), error.what()));
-    }
 }
 
 }  // namespace neumann

@@ -3,7 +3,6 @@
 
 #include "apps/output/files/shown_series.h"
 #include "core/image/pixel_estimate.h"
-#include "operators/render/report/series_report.h"
 
 #include <nlohmann/json.hpp>
 
@@ -37,8 +36,6 @@ public:
     PixelEstimate picture(const std::string& name) const;
     // The text of a file; nothing if there is none.
     std::optional<std::string> text(const std::string& name) const;
-    // What series.csv tells; nothing if run.json is of a version that did not keep all of it.
-    std::optional<SeriesReport> report() const;
 
 private:
     std::filesystem::path path_;

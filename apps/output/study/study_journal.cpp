@@ -118,10 +118,13 @@ void StudyJournal::read() {
 
 void StudyJournal::expect_same(const Json& now) const {
     const Json as_written = Json::parse(json_text(now));
-    for (const auto& [name, value] : study.items())
-        if (as_written.at(name) != value)
-            throw OptionError("resume", fmt::format(": {} is {}, and the study that was cut off has {}", name,
-                                                    json_text(now.at(name)), json_text(value)));
+    const auto text = [](const Json& json, const std::string& name) {
+        const std::string text = json.value(name, "");
+        return text.empty() ? "nothing" : text;
+    };
+    for (const auto& [name, value] : as_written.items())
+        if (const std::string is = text(as_written, name), was = text(study, name); is != was)
+            throw OptionError("resume", fmt::format(": {} is {}, and the study that was cut off has {}", name, is, was));
 }
 
 void StudyJournal::begin(const Json& new_study, const Json& new_plan) {

@@ -21,7 +21,7 @@ public:
     StudyJournal(const StudyJournal&) = delete;
     StudyJournal& operator=(const StudyJournal&) = delete;
 
-    // What was studied, and how it was planned; null for a new journal.
+    // What was studied, as texts by name, and how it was planned; null for a new journal.
     nlohmann::ordered_json study, plan;
     // Throws InputError that names the differences, if `study` is not the study of the journal.
     void expect_same(const nlohmann::ordered_json& study) const;
