@@ -1,5 +1,6 @@
 #include "operators/fields/matrix/traced_series.h"
 
+#include "operators/algebra/linked_series.h"
 #include "operators/fields/matrix/camera_vector.h"
 #include "operators/fields/matrix/chains.h"
 #include "operators/fields/matrix/light_vector.h"
@@ -9,7 +10,6 @@
 #include "operators/fields/matrix/sides.h"
 #include "operators/fields/matrix/transport_matrix.h"
 
-#include <deque>
 #include <functional>
 #include <optional>
 #include <span>
@@ -61,61 +61,16 @@ private:
     std::span<const std::uint32_t> around_;
 };
 
-// One of the two series. `product(field)` applies K to what field(m) points to: the field that rays see after m links (chains.h),
-// or null for 0. `lift` turns a term into a field on the finer patches, and `lower` turns such a field into a term.
-template <int C, class Product, class Lift, class Lower>
-class Terms {
-public:
-    using Term = ExitantVector<C>;
-
-    // The terms from `first` on. `links`: the most that a ray meets.
-    Terms(const Product& product, Lift lift, Lower lower, int links, Term first)
-        : product_(product),
-          lift_(std::move(lift)),
-          lower_(std::move(lower)),
-          links_(static_cast<std::size_t>(links)),
-          term_(std::move(first)) {
-        keep();
-    }
-
-    const Term& term() const { return term_; }
-    // The next term, f_{k+1} = R Σ_m T_m f_{k−m} + given.
-    void advance(const Term* given) {
-        term_ = lower_(product_([&](int m) { return past(static_cast<std::size_t>(m)); }));
-        if (given) term_ = std::move(term_) + *given;
-        keep();
-    }
-
-    // The sum of all later terms, S = K S + R Σ_m T_m Σ_{j≤m} f_{k−j} + given.
-    SeriesRest<C> rest(const Term* given) const {
-        const auto K = [&](const Term& f) {
-            const Term lifted = lift_(f);
-            return lower_(product_([&](int) { return &lifted; }));
-        };
-        if (links_ == 0 && !given) return rest_of_series<C>(K, term_);
-        std::vector<Term> sums{past_.front()};
-        for (std::size_t j = 1; j < past_.size(); ++j) sums.push_back(sums.back() + past_[j]);
-        Term begun = lower_(product_([&](int m) { return &sums[std::min(static_cast<std::size_t>(m), sums.size() - 1)]; }));
-        if (given) begun = std::move(begun) + *given;
-        SeriesRest<C> rest = rest_of_series<C>(K, begun);
-        rest.sum = std::move(rest.sum) + begun;
-        return rest;
-    }
-
-private:
-    void keep() {
-        past_.push_front(lift_(term_));
-        if (past_.size() > links_ + 1) past_.pop_back();
-    }
-    const Term* past(std::size_t m) const { return m < past_.size() ? &past_[m] : nullptr; }
-
-    const Product& product_;
-    Lift lift_;
-    Lower lower_;
-    std::size_t links_;
-    Term term_;
-    std::deque<Term> past_;  // lifted: f_k, f_{k−1}, …
-};
+// The sum of all terms after the last, whose bounce is given `light`.
+template <int C, class Series>
+SeriesRest<C> rest_after(const Series& series, const ExitantVector<C>* light) {
+    const auto K = [&](const ExitantVector<C>& f) { return series.apply(f); };
+    if (!series.has_links() && !light) return rest_of_series<C>(K, series.term());
+    const ExitantVector<C> begun = series.begun(light);
+    SeriesRest<C> rest = rest_of_series<C>(K, begun);
+    rest.sum = std::move(rest.sum) + begun;
+    return rest;
+}
 
 // What the lights give to a bounce without T: b = K Le in bounce 1, and light that comes by links (link_light.h) in later ones; the
 // last entry is for all bounces beyond N. Empty if all light comes by T.
@@ -162,8 +117,8 @@ TracedSeries series_of(const Product& product, int links, const ExitantVector<C>
         look(0, Le);
     }
     const ExitantVector<C>& begin = first == 1 ? given[1] : Le;
-    Terms<C, decltype(K), decltype(same), decltype(same)> terms(K, same, same, links, begin);
-    Terms<C, decltype(K), Prolongation<C>, CoarseMeans<C>> coarse_terms(K, P, M, links, M(begin));
+    LinkedSeries terms(K, same, same, links, begin);
+    LinkedSeries coarse_terms(K, P, M, links, M(begin));
     for (int i = first; i <= N; ++i) {
         const auto coarse_light = coarse_by_links(i);
         if (i > first) {
@@ -175,16 +130,16 @@ TracedSeries series_of(const Product& product, int links, const ExitantVector<C>
         look(i, terms.term());
     }
     if (!settings.rest) return series;
-    const auto rest_after = [&](const auto& last, const ExitantVector<C>* light) {
-        SeriesRest<C> rest = last.rest(light);
+    const auto rest_of = [&](const auto& last, const ExitantVector<C>* light) {
+        SeriesRest<C> rest = rest_after<C>(last, light);
         if (first > N) rest.sum = rest.sum + last.term();  // b itself has no picture
         return rest;
     };
     const auto coarse_light = coarse_by_links(N + 1);
-    const SeriesRest<C> rest = rest_after(terms, by_links(N + 1));
+    const SeriesRest<C> rest = rest_of(terms, by_links(N + 1));
     series.fine.set<C>(N + 1, rest.sum);
     series.rest_converges = rest.converges;
-    if (rest.converges) series.coarse.set<C>(N + 1, rest_after(coarse_terms, pointer(coarse_light)).sum);
+    if (rest.converges) series.coarse.set<C>(N + 1, rest_of(coarse_terms, pointer(coarse_light)).sum);
     return series;
 }
 

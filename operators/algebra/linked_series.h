@@ -1,0 +1,72 @@
+// L = Le + Σ_m R T_m L with operators that stand for several bounces at once: the series of linked operators.
+//
+// A ray that is reflected by m mirrors on its way brings light of m more bounces: with K = Σ_m R T_m, where T_m adds m to the
+// number of bounces, the terms are f_{k+1} = R Σ_m T_m f_{k−m}. Without links it is the Neumann series. What is given to a bounce
+// besides, b_k, adds to its term.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <deque>
+#include <utility>
+#include <vector>
+
+namespace neumann {
+
+// `product(field)` is R Σ_m T_m field(m), where field(m) points to a field, or is null for 0. Where the product is of finer fields
+// than the terms are, `lift` makes such a field of a term, and `lower` a term of it.
+template <class Field, class Product, class Lift, class Lower>
+class LinkedSeries {
+public:
+    // The terms from `first` on. `links`: the largest m.
+    LinkedSeries(const Product& product, Lift lift, Lower lower, int links, Field first)
+        : product_(product),
+          lift_(std::move(lift)),
+          lower_(std::move(lower)),
+          links_(static_cast<std::size_t>(links)),
+          term_(std::move(first)) {
+        keep();
+    }
+
+    const Field& term() const { return term_; }
+
+    // f_{k+1} = R Σ_m T_m f_{k−m} + b_{k+1}; `given`: b, or null for 0.
+    void advance(const Field* given) {
+        term_ = plus(lower_(product_([&](int m) { return past(static_cast<std::size_t>(m)); })), given);
+        keep();
+    }
+
+    // K f, for f that all links see alike.
+    Field apply(const Field& f) const {
+        const Field lifted = lift_(f);
+        return lower_(product_([&](int) { return &lifted; }));
+    }
+
+    bool has_links() const { return links_ > 0; }
+    // R Σ_m T_m Σ_{j≤m} f_{k−j} + b, with which the sum of all later terms begins: S = K S + this.
+    Field begun(const Field* given) const {
+        std::vector<Field> sums{past_.front()};
+        for (std::size_t j = 1; j < past_.size(); ++j) sums.push_back(sums.back() + past_[j]);
+        return plus(lower_(product_([&](int m) { return &sums[std::min(static_cast<std::size_t>(m), sums.size() - 1)]; })), given);
+    }
+
+private:
+    static Field plus(Field f, const Field* given) {
+        if (given) f = std::move(f) + *given;
+        return f;
+    }
+    void keep() {
+        past_.push_front(lift_(term_));
+        if (past_.size() > links_ + 1) past_.pop_back();
+    }
+    const Field* past(std::size_t m) const { return m < past_.size() ? &past_[m] : nullptr; }
+
+    const Product& product_;
+    Lift lift_;
+    Lower lower_;
+    std::size_t links_;
+    Field term_;
+    std::deque<Field> past_;  // lifted: f_k, f_{k−1}, …
+};
+
+}  // namespace neumann
