@@ -24,7 +24,7 @@ public:
     InputError(const Location& place, const std::string& what) : std::runtime_error(to_string(place) + ": " + what) {}
 };
 
-// The value of an option is wrong: "photons 64: these leave …". `what` follows the option's name, with a value or without, which who was
+// The value of an option is wrong: "tail 0.1: the series …". `what` follows the option's name, with a value or without, which who was
 // asked spells his own way.
 class OptionError : public InputError {
 public:

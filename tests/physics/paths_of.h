@@ -1,6 +1,7 @@
 // The paths of a method that makes nothing ready: paths_of(method::Surface{}).
 #pragma once
 
+#include "core/reader/read_scene.h"
 #include "operators/render/from_paths/sampling_settings.h"
 #include "operators/render/methods/method.h"
 #include "operators/render/methods/prepared.h"
@@ -12,9 +13,9 @@ namespace neumann::physics {
 
 template <class M>
 std::shared_ptr<const PathMethod> paths_of(const M& method) {
-    static const Scene none{};
+    static const Scene any = read_scene(SCENES "/furnace/furnace.xml", {{"res", "1"}});
     Prepared prepared(0);
-    return method.prepare({none, SamplingSettings{}, 0.0, prepared, Watch{}});
+    return method.prepare({any, SamplingSettings{}, 0.0, prepared, Watch{}});
 }
 
 }  // namespace neumann::physics

@@ -94,7 +94,7 @@ bool MixedSampler::sample_picture(std::uint64_t replicate, std::vector<Rgb>& pic
         SampleRanges own_ranges;
         own_ranges.of.resize(picture.size());
         Tally counted(Q);
-        if (!parts_[part]->paths().sample_picture(replicate, own, own_ranges, counted, of_part)) return false;
+        if (!parts_[part]->path_sampler().sample_picture(replicate, own, own_ranges, counted, of_part)) return false;
         done += share;
 
         oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::uint32_t>(0, pixels, 256), [&](const auto& range) {
