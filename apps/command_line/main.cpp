@@ -2,6 +2,7 @@
 #include "apps/command_line/add_options.h"
 #include "apps/command_line/command_manual.h"
 #include "apps/command_line/commands.h"
+#include "apps/command_line/experiments.h"
 #include "apps/command_line/unknown_words.h"
 #include "apps/processes/launch.h"
 #include "core/base/did_you_mean.h"
@@ -65,6 +66,7 @@ void keep_memory() {
 }  // namespace
 
 int main(int argc, char** argv) try {
+    neumann::go_on_where_experiments_are(argv);
     keep_memory();
     std::signal(SIGXFSZ, SIG_IGN);  // a file too large is an error of write() like a full disk
     neumann::end_at_interrupts();
