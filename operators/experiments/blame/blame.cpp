@@ -1,9 +1,8 @@
 #include "operators/experiments/blame/blame.h"
 
-#include "operators/experiments/blame/picture_mistakes.h"
 #include "operators/experiments/blame/sentences.h"
 #include "operators/experiments/blame/shared_numbers.h"
-#include "operators/experiments/blame/sure_pixels.h"
+#include "operators/experiments/blame/sure_causes.h"
 
 #include <fmt/format.h>
 
@@ -20,10 +19,6 @@ namespace {
 
 // A mistake is likelier than none by so much, as −2 log of the likelihood.
 constexpr double strong_evidence = 40.0;
-// What a mistake leaves of the squared difference, in pixels that chance hardly changes, and in all that the camera sees of lamps.
-// There a shift is known roughly: of one by half a pixel a third is left. Pixels that share four samples all take them off the
-// middle, in 1 of 20 pictures so far that as little is left.
-constexpr double most_left_of_sure = 0.1, most_left_of_signs = 0.35;
 // Two pictures of one renderer whose chance to differ so is less are further apart than their noise.
 constexpr double agreement_of_seeds = 0.05;
 constexpr std::size_t places_a_term = 3;
@@ -199,7 +194,7 @@ private:
     }
 
     void judge_terms() {
-        const std::vector<SureCause> sure = find_sure_causes();
+        const std::vector<SureCause> sure = find_sure_causes(expected_, compared_, are_sums());
         for (std::size_t i = 0; i < compared_.size(); ++i) {
             const ComparedTerm& c = compared_[i];
             TermVerdict v;
@@ -216,55 +211,6 @@ private:
             if (v.differs && !result_.first_wrong) result_.first_wrong = i;
             result_.terms.push_back(std::move(v));
         }
-    }
-
-    // A mistake that pixels whose light is sure go along with.
-    struct SureCause {
-        std::string words;
-        double left = 1.0;
-        bool is_found() const { return !words.empty(); }
-    };
-
-    // Of each term. What moves pixels shows in what the camera sees of lamps, and so does what changes bounce 0 alone; what
-    // reflections by mirrors lack in those.
-    std::vector<SureCause> find_sure_causes() {
-        std::vector<SureCause> causes(compared_.size());
-        std::vector<BounceRange> direct;
-        for (const ComparedTerm& c : compared_)
-            if (c.bounces.last <= 1) direct.push_back(c.bounces);
-        if (direct.empty()) return causes;
-        const auto made = expected_.wrong(direct);
-        const double samples = expected_.paths_a_pixel();
-        const auto none = std::ranges::find(*made, Mistake::none, &WrongTerms::mistake);
-        const double theirs = direct.front() == BounceRange{0, 0}
-                                  ? fewest_samples(compared_.front().theirs, compared_.front().ours, {none->terms[0], samples})
-                                  : 1.0;
-        for (std::size_t i = 0; i < direct.size(); ++i) {
-            const ComparedTerm& c = compared_[i];
-            ComparedTerm right = c;
-            right.ours = none->terms[i];
-            right.our_sum = right.ours.mean;
-            std::vector<WrongPictures> wrong;
-            if (c.bounces.first == 0) wrong = moved_pictures({right}, are_sums());
-            if (c.bounces.last == 0) wrong.push_back({"factor", "a factor", {scaled(right.ours, fitted_factor(c.theirs, c.ours))}});
-            for (const WrongTerms& w : *made)
-                if (c.bounces.last == 0 ? w.mistake != Mistake::clamped : is_of_sure_light(w.mistake))
-                    wrong.push_back({name_of(w.mistake), describe(w.mistake), {w.terms[i]}});
-            const double threshold = false_alarms / static_cast<double>(2 * compared_.size() * wrong.size());
-            const auto consider = [&](const WrongPictures& w, const SurePixels& found, double most_left) {
-                if (found.p < threshold && found.left < std::min(most_left, causes[i].left)) causes[i] = {w.words, found.left};
-            };
-            const SureLight light{right.ours, samples};
-            for (const WrongPictures& w : wrong) {
-                consider(w, test_sure_pixels(c.theirs, c.ours, light, w.terms[0], theirs), most_left_of_sure);
-                if (c.bounces.last == 0) consider(w, test_signs(c.theirs, c.ours, light, w.terms[0]), most_left_of_signs);
-            }
-        }
-        return causes;
-    }
-
-    static bool is_of_sure_light(Mistake mistake) {
-        return mistake == Mistake::no_emission || mistake == Mistake::no_light_after_mirror || mistake == Mistake::no_mirrors;
     }
 
     // A term that is further apart from ours than chance explains. It differs if some mistake is clearly likelier than none, and
