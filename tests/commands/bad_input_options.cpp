@@ -254,4 +254,16 @@ TEST_F(BadInputOptions, OfOtherPrograms) {
               "manual\nRun with --help for more information.\n");
 }
 
+// Where the experiments were not built, their help is there, and what is missing is said.
+TEST_F(BadInputOptions, ExperimentsThatAreNotThere) {
+    std::filesystem::copy(NEUMANN, path("neumann"));
+    const std::string alone = path("neumann").string();
+    EXPECT_EQ(run_program({alone, "study", "--help"}).exit_code, 0);
+    const Finished done = run_program({alone, "study", "scene.xml"});
+    EXPECT_EQ(done.exit_code, 1);
+    EXPECT_TRUE(done.err.starts_with("neumann: the program neumann-experiments, which runs this command, is not there"))
+        << done.err;
+    EXPECT_EQ(run_program({alone, "study", "scene.xml", "--spp", "4"}).exit_code, 2);
+}
+
 }  // namespace neumann::bad_input_options_test

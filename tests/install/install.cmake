@@ -42,6 +42,8 @@ endforeach()
 
 # The program and a scene, away from the repository.
 run(${neumann} render ${FOLDER}/usr/share/neumann/scenes/furnace/furnace.xml -o ${FOLDER}/out -n 1 --spp 1 -D res=4 --quiet)
+# By the program of the experiments.
+run(${neumann} spectrum furnace --patches 6 --directions 4 --quiet)
 if(NOT EXISTS ${FOLDER}/out/run.json)
   message(FATAL_ERROR "the installed program rendered nothing")
 endif()
