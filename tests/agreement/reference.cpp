@@ -4,12 +4,14 @@
 #include "operators/render/methods/method_options.h"
 #include "operators/statistics/student_t.h"
 #include "tests/physics/seed.h"
+#include "tests/physics/today.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 #include <map>
 #include <optional>
 
@@ -52,6 +54,10 @@ const Reference& reference(const std::string& scene) {
     static std::map<std::string, Reference> made;
     const auto there = made.find(scene);
     return there != made.end() ? there->second : made.emplace(scene, make(scene)).first->second;
+}
+
+bool is_of_today(const std::string& scene) {
+    return physics::is_of_today(static_cast<std::size_t>(std::distance(makers.begin(), makers.find(scene))));
 }
 
 Count compare(const physics::Blocks& found, const Reference& reference, const Comparison& comparison) {
