@@ -183,7 +183,7 @@ TEST_F(RenderFields, Refusals) {
     for (const char* method : {"walk", "matrix", "gather"})
         expect_refused({"--method", method, "--importance"}, std::string("--importance belongs to patches, not to ") + method);
     expect_refused({"--method", "patches", "--importance", "--tail", "0.1"},
-                   "--tail counts bounces by what is left of the light, not of importance: --importance takes -n");
+                   "--tail counts bounces by what is left of the light, not of importance; give their number");
 }
 
 TEST_F(RenderFields, MorePatchesThanMemoryHoldsAreRefused) {

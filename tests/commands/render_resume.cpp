@@ -178,7 +178,7 @@ TEST_F(RenderResume, WhatIsAnotherRenderIsRefused) {
         arguments.insert(arguments.end(), options.begin(), options.end());
         return refused(arguments);
     };
-    EXPECT_EQ(error({"--seed", "3"}), "--resume: --seed 3 is given, and was not\n");
+    EXPECT_EQ(error({"--seed", "3"}), "--resume: --seed is 3, and was 0\n");
     EXPECT_EQ(error({"-n", "3"}), "--resume: -n is 3, and was 2\n");
     EXPECT_EQ(error({"-D", "height=5"}), "--resume: -D is height=5, and was height=4\n");
     EXPECT_EQ(error({"--method", "light"}), "--resume: --method light is given, and was not\n");
@@ -188,7 +188,7 @@ TEST_F(RenderResume, WhatIsAnotherRenderIsRefused) {
     EXPECT_EQ(error({"other.xml"}), "--resume a: other.xml is not the scene that it began with, or has changed since\n");
     EXPECT_EQ(refused({"render", "--resume", "nothing"}), "nothing: holds no render that could be resumed\n");
     write("none/run.json", "{}");
-    EXPECT_EQ(refused({"render", "--resume", "none"}), "none/run.json: tells no options, and cannot be resumed\n");
+    EXPECT_EQ(refused({"render", "--resume", "none"}), "none/run.json: tells no request, and cannot be resumed\n");
     EXPECT_EQ(contents("a"), before);
     // The same scene at another place.
     std::filesystem::rename(path("scene.xml"), path("moved.xml"));
