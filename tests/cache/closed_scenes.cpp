@@ -145,7 +145,7 @@ TEST(CacheClosedScenes, RefuseWhatTheyCannotDo) {
     const std::string much = refusal(box, usual, 1e5);  // at 96 bytes a ray
     EXPECT_EQ(much,
               fmt::format("accuracy 0.05: the rays of {} records, and more are needed, take 0.0 GiB, and 0.0 may be taken; take a "
-                          "larger number, or fewer --directions",
+                          "larger number, or fewer directions",
                           static_cast<int>(1e5 / (96.0 * static_cast<double>(HemisphereCells(64).size()))) + 1));
     known::SceneMaker mirrors;
     mirrors.add(Sphere{{0, 0, 0}, 1.0, true}, known::made_of(Conductor(), Rgb(1.0)));

@@ -142,7 +142,7 @@ TEST_F(BadInputOptions, Paths) {
     EXPECT_EQ(refusal({"--paths", "164,0"}), "--paths 164,0: the picture has x from 0 to 163 and y from 0 to 4\n");
     EXPECT_EQ(refusal({"--paths", "3,4", "--files", "tables"}), "--paths: are for the page; expected page among --files\n");
     EXPECT_EQ(refusal({"--paths", "named", "--method", "gather"}),
-              "--paths: --method gather has no paths to replay: its bounces are read from fields on patches\n");
+              "--paths: gather has no paths to replay: its bounces are read from fields on patches\n");
     EXPECT_EQ(refusal({"--paths", "named", "--method", "pointwise"}),
               "--paths: pointwise has no paths to replay: each of its bounces is asked for anew\n");
     EXPECT_EQ(refusal({"--paths", "named", "--bias-allowed"}),

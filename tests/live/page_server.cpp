@@ -115,7 +115,7 @@ TEST(PageServer, APortThatIsTakenIsRefused) {
         FAIL();
     } catch (const InputError& error) {
         EXPECT_EQ(error.what(),
-                  "--live " + std::to_string(port) +
+                  "live " + std::to_string(port) +
                       ": this port of 127.0.0.1 cannot be had: Address already in use; without a number any free one is "
                       "taken");
     }

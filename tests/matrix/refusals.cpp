@@ -33,11 +33,11 @@ TEST(PatchRefusals, OfMixedGlass) {
     const auto glass = std::make_shared<const Bsdf>(Dielectric(1.5)), matt = std::make_shared<const Bsdf>(Diffuse(Rgb(0.5)));
     EXPECT_EQ(
         refusal(made_of(Mask(glass, Rgb(0.5))), origins),
-        "room.xml:7:5: bsdf 'mask' of shape 'sphere' lets light through otherwise than glass does, which patches do not hold; "
-        "'render --method walk' can");
+        "room.xml:7:5: bsdf 'mask' of shape 'sphere' lets light through otherwise than glass does, which patches do not hold, "
+        "and walk does");
     EXPECT_EQ(refusal(made_of(Blend(matt, glass, Rgb(0.5)))),
-              "the material of shape 1 lets light through otherwise than glass does, which patches do not hold; "
-              "'render --method walk' can");
+              "the material of shape 1 lets light through otherwise than glass does, which patches do not hold, "
+              "and walk does");
     EXPECT_EQ(refusal(boundary(*glass, Dielectric(1.0 / 1.5))), "none");
     EXPECT_EQ(refusal(made_of(Blend(matt, std::make_shared<const Bsdf>(ThinDielectric(1.5)), Rgb(0.5)))), "none");
 }
@@ -46,8 +46,8 @@ TEST(PatchRefusals, OfTexturesThatAreNoFactor) {
     const auto matt = std::make_shared<const Bsdf>(Diffuse(Rgb(0.5))),
                metal = std::make_shared<const Bsdf>(RoughConductor(Ggx(0.3)));
     EXPECT_EQ(refusal(made_of(Blend(matt, metal, varying))),
-              "the material of shape 1 varies by more than a factor of its reflectance, which patches do not hold; "
-              "'render --method walk' can");
+              "the material of shape 1 varies by more than a factor of its reflectance, which patches do not hold, "
+              "and walk does");
     EXPECT_EQ(refusal(made_of(Diffuse(varying))), "none");
     EXPECT_EQ(refusal(made_of(RoughConductor(Ggx(0.3), {}, varying))), "none");
     EXPECT_EQ(refusal(made_of(Blend(matt, matt, varying))), "none");
@@ -57,10 +57,9 @@ TEST(PatchRefusals, OfTexturesThatAreNoFactor) {
 
 TEST(PatchRefusals, OfAnisotropy) {
     const auto brushed = std::make_shared<const Bsdf>(RoughConductor(Ggx(Vec2(0.1, 0.3))));
-    EXPECT_EQ(refusal(made_of(*brushed)),
-              "the material of shape 1 is anisotropic, which patches do not hold; 'render --method walk' can");
+    EXPECT_EQ(refusal(made_of(*brushed)), "the material of shape 1 is anisotropic, which patches do not hold, and walk does");
     EXPECT_EQ(refusal(made_of(Blend(std::make_shared<const Bsdf>(Diffuse(Rgb(0.5))), brushed, Rgb(0.5)))),
-              "the material of shape 1 is anisotropic, which patches do not hold; 'render --method walk' can");
+              "the material of shape 1 is anisotropic, which patches do not hold, and walk does");
 }
 
 }  // namespace neumann::refusals_test

@@ -141,12 +141,10 @@ TEST(TransmissionRefusals, OfWhatStandsInGlass) {
     SceneMaker lamp_inside = maker, lamp_outside = maker;
     lamp_inside.add(Sphere{{0, 0, 0}, 0.2, false}, lamp(1.0));
     lamp_outside.add(Sphere{{0.8, 0.8, 0.8}, 0.1, false}, lamp(1.0));
-    EXPECT_EQ(refusal(lamp_inside.make(), false),
-              "a light stands within glass, which patches do not hold; 'render --method walk' can");
+    EXPECT_EQ(refusal(lamp_inside.make(), false), "a light stands within glass, which patches do not hold, and walk does");
     EXPECT_EQ(refusal(lamp_outside.make(), false), "none");
     lamp_outside.parts.camera.fov = 1.0;
-    EXPECT_EQ(refusal(lamp_outside.make(), true),
-              "the camera stands within glass, which patches do not hold; 'render --method walk' can");
+    EXPECT_EQ(refusal(lamp_outside.make(), true), "the camera stands within glass, which patches do not hold, and walk does");
 }
 
 }  // namespace neumann::transmission_test

@@ -65,7 +65,7 @@ class Blame(Case):
         )
         self.assertEqual(done.returncode, 0, done.stderr)
         files = [f"r/bounce_00{i}.exr" for i in range(3)]
-        done = command("blame", *files, scene_file("mitsuba-cornell"), "-D", "res=24", "--counts", "bounces", "--spp", "64", "--json", folder=self.folder)
+        done = command("blame", *files, scene_file("mitsuba-cornell"), "-D", "res=24", "counts", "bounces", "--spp", "64", "--json", folder=self.folder)
         printed = json.loads(done.stdout)
         found = neumann.blame(self.scene, list(self.terms), counts="bounces", spp=64, quiet=True)
         self.assertEqual(found.sentences, printed["sentences"])
@@ -77,7 +77,7 @@ class Blame(Case):
                 neumann.blame(self.scene, *arguments, **keywords, quiet=True)
 
         picture = self.terms[0]
-        refused("--counts arnold: expected mitsuba, pbrt, cycles or bounces", [picture], counts="arnold")
+        refused("counts arnold: expected mitsuba, pbrt, cycles or bounces", [picture], counts="arnold")
         refused("there are no pictures to compare with", [])
         refused(r"an array of shape \(24, 24\) is no picture, which has \(height, width, 3\)", [picture[:, :, 0]])
         refused("again has no picture with the number 1", [picture, picture], again=[picture])

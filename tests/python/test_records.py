@@ -37,7 +37,7 @@ class Records(Case):
         for arguments, message in (
             ({"bounces": 0}, "bounces 0: expected 1 to 1000"),
             ({"accuracy": 0.0}, "accuracy: '0.0' is not a number above 0"),
-            ({"records": "octree"}, "--records: octree not in {hessian,split-sphere}"),
+            ({"records": "octree"}, "records: octree not in {hessian,split-sphere}"),
         ):
             with self.assertRaises(neumann.InputError) as caught:
                 cornell().records(**arguments)

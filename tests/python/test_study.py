@@ -95,11 +95,11 @@ class Study(Case):
             study(flat)
         with self.assertRaisesRegex(neumann.InputError, r"^infinite\(\): returned a value that is not finite$"):
             study(infinite)
-        with self.assertRaisesRegex(neumann.InputError, r"^--methods: 'flat\(\)' is given twice$"):
+        with self.assertRaisesRegex(neumann.InputError, r"^methods: 'flat\(\)' is given twice$"):
             furnace().study([flat, flat], samples=[1])
 
     def test_errors(self):
-        with self.assertRaisesRegex(neumann.InputError, "^--budgets: 1 after 2; budgets have to grow$"):
+        with self.assertRaisesRegex(neumann.InputError, "^budgets: 1 after 2; budgets have to grow$"):
             furnace().study(["walk"], budgets=[2, 1])
 
     def test_plan(self):
