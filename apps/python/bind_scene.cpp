@@ -3,7 +3,7 @@
 #include "apps/output/files/json_text.h"
 #include "apps/output/files/plan_json.h"
 #include "apps/python/module.h"
-#include "apps/requests/scenes_along.h"
+#include "apps/requests/scene_file.h"
 #include "core/base/stopwatch.h"
 #include "core/geometry/ray_caster.h"
 #include "operators/render/methods/method_plan.h"

@@ -3,6 +3,7 @@
 
 #include <map>
 #include <string>
+#include <vector>
 
 namespace neumann {
 
@@ -17,5 +18,12 @@ struct SceneFile {
 
 // Throws InputError.
 Scene read_scene(const SceneFile& file);
+
+// Of texts "name=value". Throws InputError for others, and for a name that is given twice.
+std::map<std::string, std::string> parse_definitions(const std::vector<std::string>& texts);
+
+// The file of the scene with this name, beside the program or Python's module as it was installed or built; the text itself if it
+// is a file's name, or there is no such scene.
+std::string scene_along(const std::string& name);
 
 }  // namespace neumann

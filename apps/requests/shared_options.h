@@ -3,9 +3,7 @@
 
 #include "apps/requests/chosen_files.h"
 #include "apps/requests/option.h"
-#include "apps/requests/parse_definitions.h"
 #include "apps/requests/scene_file.h"
-#include "apps/requests/scenes_along.h"
 
 namespace neumann {
 

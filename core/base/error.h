@@ -24,8 +24,8 @@ public:
     InputError(const Location& place, const std::string& what) : std::runtime_error(to_string(place) + ": " + what) {}
 };
 
-// The value of an option is wrong: "tail 0.1: the series …". `what` follows the option's name, with a value or without, which who was
-// asked spells his own way.
+// The value of an option is wrong: "tail 0.1: the series …". `what` follows the option's name, with a value or without it, and
+// the name is spelled by who was asked.
 class OptionError : public InputError {
 public:
     OptionError(const std::string& option, const std::string& what)

@@ -221,8 +221,7 @@ TEST_F(Health, WhatCannotBeReplayed) {
               "--sample 2: expected 0 to 1, as many as the render has a pixel\n");
     EXPECT_EQ(refused({"replay", "a", "--pixel", "164,0", "--sample", "0"}),
               "--pixel 164,0: the picture has x from 0 to 163 and y from 0 to 4\n");
-    EXPECT_EQ(refused({"replay", "m", "1"}),
-              "m: patches has no paths to replay: its bounces are read from fields on patches\n");
+    EXPECT_EQ(refused({"replay", "m", "1"}), "m: patches has no paths to replay: its bounces are read from fields on patches\n");
     EXPECT_EQ(refused({"replay", "p", "1"}), "p: pointwise has no paths to replay: each of its bounces is asked for anew\n");
     write("b/run.json", "{\"options\": 3}");
     EXPECT_EQ(refused({"replay", "b", "1"}).find("b/run.json: is not a run.json of this program's renders: "), 0u);

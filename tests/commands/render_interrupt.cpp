@@ -129,8 +129,8 @@ TEST_F(RenderInterrupt, WhileAMethodIsMadeReady) {
         EXPECT_LT(std::chrono::steady_clock::now() - asked, milliseconds(2000)) << method;
         EXPECT_EQ(done.exit_code, 1) << method << done.out;
         // On a slow machine it was told before that it takes long.
-        EXPECT_TRUE(done.err.ends_with(fmt::format(
-            "neumann: interrupted while {} was made ready, before the first sample: no picture was written\n", method)))
+        EXPECT_TRUE(done.err.ends_with(
+            fmt::format("neumann: interrupted while {} was made ready, before the first sample: no picture was written\n", method)))
             << done.err;
         EXPECT_EQ(names("a"), Names{}) << method;
         std::filesystem::remove_all(path("a"));

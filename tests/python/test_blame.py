@@ -65,7 +65,7 @@ class Blame(Case):
         )
         self.assertEqual(done.returncode, 0, done.stderr)
         files = [f"r/bounce_00{i}.exr" for i in range(3)]
-        done = command("blame", *files, scene_file("mitsuba-cornell"), "-D", "res=24", "counts", "bounces", "--spp", "64", "--json", folder=self.folder)
+        done = command("blame", *files, scene_file("mitsuba-cornell"), "-D", "res=24", "--counts", "bounces", "--spp", "64", "--json", folder=self.folder)
         printed = json.loads(done.stdout)
         found = neumann.blame(self.scene, list(self.terms), counts="bounces", spp=64, quiet=True)
         self.assertEqual(found.sentences, printed["sentences"])
