@@ -22,7 +22,7 @@ using known::Case;
 using known::Figure;
 using Json = nlohmann::ordered_json;
 
-struct Outcome {
+struct CaseOutcome {
     const Case* known;
     std::vector<Figure> figures;
     double seconds;
@@ -55,27 +55,27 @@ void print_figure(const Figure& f) {
     if (!f.why.empty()) fmt::print("      {}\n", f.why);
 }
 
-void print_case(const Outcome& outcome) {
+void print_case(const CaseOutcome& outcome) {
     fmt::print("\n{}  ({}; {:.2f} s)\n", outcome.known->name, outcome.known->source, outcome.seconds);
     for (const Figure& f : outcome.figures) print_figure(f);
     std::fflush(stdout);
 }
 
-std::size_t failures(const std::vector<Outcome>& outcomes) {
+std::size_t failures(const std::vector<CaseOutcome>& outcomes) {
     std::size_t count = 0;
-    for (const Outcome& outcome : outcomes)
+    for (const CaseOutcome& outcome : outcomes)
         count += static_cast<std::size_t>(
             std::count_if(outcome.figures.begin(), outcome.figures.end(), [](const Figure& f) { return !f.passed; }));
     return count;
 }
 
-void print_summary(const std::vector<Outcome>& outcomes, std::size_t cases, double seconds) {
+void print_summary(const std::vector<CaseOutcome>& outcomes, std::size_t cases, double seconds) {
     std::size_t figures = 0;
-    for (const Outcome& outcome : outcomes) figures += outcome.figures.size();
+    for (const CaseOutcome& outcome : outcomes) figures += outcome.figures.size();
     const std::size_t failed = failures(outcomes);
     if (failed > 0) {
         fmt::print("\nFailed:\n");
-        for (const Outcome& outcome : outcomes)
+        for (const CaseOutcome& outcome : outcomes)
             if (!outcome.passed()) fmt::print("  {}\n", outcome.known->name);
     }
     fmt::print("\n{} figures of {} cases: {} ok, {} FAILED; {:.1f} s\n", figures, outcomes.size(), figures - failed, failed,
@@ -88,7 +88,7 @@ Json as_json(const Figure::Value& value) {
     return std::get<double>(value);
 }
 
-Json as_json(const Outcome& outcome) {
+Json as_json(const CaseOutcome& outcome) {
     constexpr const char* relations[] = {"equal", "at most", "at least"};
     Json figures = Json::array();
     for (const Figure& f : outcome.figures) {
@@ -161,7 +161,7 @@ int stress_command(const StressRequest& request) {
     if (!request.json)
         fmt::print("  {:<{}} {:>{}} {:>{}} {:>{}} {:>{}}  verdict\n", "case, quantity", quantity_width, "expected", value_width,
                    "measured", value_width, "error", number_width, "tolerance", number_width);
-    std::vector<Outcome> outcomes;
+    std::vector<CaseOutcome> outcomes;
     const CaseLine line;
     for (const Case* known : cases) {
         if (interrupted()) break;
@@ -174,7 +174,7 @@ int stress_command(const StressRequest& request) {
     }
     if (request.json) {
         Json j = {{"version", NEUMANN_VERSION}, {"seed", request.seed}, {"cases", Json::array()}};
-        for (const Outcome& outcome : outcomes) j["cases"].push_back(as_json(outcome));
+        for (const CaseOutcome& outcome : outcomes) j["cases"].push_back(as_json(outcome));
         j["failed_figures"] = failures(outcomes);
         j["cases_not_reached"] = cases.size() - outcomes.size();
         j["seconds"] = watch.seconds();
