@@ -17,7 +17,7 @@ CLI::Option& add_option(CLI::App& command, const OptionWords& o, Given& given) {
         if (o.bare) added->expected(0, 1)->default_str(*o.bare);
     } else {
         added = command.add_option_function<Texts>(o.spelled(), take, o.help);
-        if (!o.stands_alone) added->allow_extra_args(false)->take_all();
+        if (!o.stands_alone && !o.comma) added->allow_extra_args(false)->take_all();
         if (o.comma) added->delimiter(o.comma);
         if (o.count.second > 0) added->expected(o.count.first, o.count.second);
     }

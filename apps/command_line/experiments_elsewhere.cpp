@@ -7,10 +7,13 @@
 #include "apps/requests/unbounce_request.h"
 #include "core/base/error.h"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -36,7 +39,10 @@ void go_on_where_experiments_are(char** argv) {
     std::error_code error;
     const fs::path own = fs::read_symlink("/proc/self/exe", error).parent_path();
     for (const char* const place : {"neumann-experiments", NEUMANN_EXPERIMENTS})
-        if (const fs::path other = own / place; fs::exists(other, error)) ::execv(other.c_str(), argv);
+        if (const fs::path other = own / place; fs::exists(other, error)) {
+            ::execv(other.c_str(), argv);
+            throw RunError(fmt::format("{}: {}", other.string(), std::strerror(errno)));
+        }
 }
 
 int blame_command(const BlameRequest&) { is_not_there(); }

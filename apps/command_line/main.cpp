@@ -106,8 +106,14 @@ int main(int argc, char** argv) try {
         return finish(0);
     }
     const auto given = std::ranges::find_if(commands, [](const neumann::Command& command) { return bool(*command.app); });
-    const int code = given->run();
-    return launch.is_helper() ? launch.help() : finish(code);
+    if (!launch.is_helper()) return finish(given->run());
+    // What is wrong with what was asked all processes find, and the first one says it.
+    try {
+        given->run();
+    } catch (const neumann::InputError&) {
+    } catch (const neumann::RunError&) {
+    }
+    return launch.help();
 } catch (const neumann::UnknownError& e) {
     complain(std::string(e.what()) + "\n--lenient takes the scene without what is not known");
     return wrong_input;

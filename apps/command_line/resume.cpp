@@ -29,7 +29,7 @@ bool is_one_of(const auto& names, const std::string& name) { return std::ranges:
 
 RenderRequest resumed(const RenderRequest& now, const Given& given) {
     const Options<RenderRequest>& options = render_options();
-    RenderRequest begun = request_from_json(options, request_in(now.resume).request);
+    RenderRequest begun = request_from_json(options, request_in(now.resume).request, now.resume);
     begun.scene.path = file_named_in_json(begun.scene.path);
     if (std::ranges::any_of(given, [](const auto& g) { return is_one_of(limits, g.first); })) {
         if (const auto& part = begun.goal.part)

@@ -51,6 +51,15 @@ std::uint64_t missing_samples(const Goal& goal, const RenderState& merged) {
 
 }  // namespace
 
+RenderRequest asked_for_all(RenderRequest of_some, const RenderState& merged) {
+    const bool one_seed = merged.series.merged.empty();
+    of_some.goal.part.reset();
+    of_some.goal.samples = one_seed ? std::optional(merged.series.samples) : std::nullopt;
+    of_some.goal.seed = one_seed ? merged.render.seed : 0;
+    of_some.paths.clear();
+    return of_some;
+}
+
 int merge_command(const MergeRequest& request) {
     const Stopwatch clock;
     for (const std::string& folder : request.folders)
@@ -67,14 +76,10 @@ int merge_command(const MergeRequest& request) {
     }
     RenderState merged = merge(std::move(renders));
 
-    RenderRequest all = request_from_json(render_options(), asked.front().request);
+    RenderRequest all = request_from_json(render_options(), asked.front().request, request.folders.front());
     const std::uint64_t missing = missing_samples(all.goal, merged);
     const ThreadLimit threads(request.threads);
-    const bool one_seed = merged.series.merged.empty();
-    all.goal.part.reset();
-    all.goal.samples = one_seed ? std::optional(merged.series.samples) : std::nullopt;
-    all.goal.seed = one_seed ? merged.render.seed : 0;
-    all.paths.clear();
+    all = asked_for_all(std::move(all), merged);
     all.scene.path = request.scene.empty() ? file_named_in_json(all.scene.path) : request.scene;
     all.command_line = request.command_line;
     const auto scene = std::make_shared<const Scene>(read_scene(all.scene));

@@ -1,12 +1,10 @@
 #include "apps/commands/page_command.h"
 
 #include "apps/output/files/rendered_folder.h"
-#include "apps/output/files/request_json.h"
 #include "apps/output/files/series_files.h"
 #include "apps/output/files/ways_files.h"
 #include "apps/output/pages/explorer_page.h"
 #include "apps/output/pages/paths_json.h"
-#include "apps/requests/render_request.h"
 #include "core/base/error.h"
 #include "core/base/limits.h"
 
@@ -19,7 +17,9 @@ namespace {
 
 std::string theme_of(const RenderedFolder& rendered) {
     const auto request = rendered.run().find("request");
-    return request == rendered.run().end() ? "dark" : request_from_json(render_options(), *request).theme;
+    if (request == rendered.run().end()) return "dark";
+    // As version 0.1 wrote it, or as this one does.
+    return request->contains("--theme") ? request->at("--theme").at(0).get<std::string>() : request->value("theme", "dark");
 }
 
 nlohmann::ordered_json paths_of(const std::string& folder, const ChosenPixels& chosen) {

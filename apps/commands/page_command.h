@@ -1,4 +1,4 @@
-// `neumann page DIR`: page, slides, strips and tables anew from the files of a render.
+// `neumann page DIR`: page, slides and strips anew from the files of a render.
 #pragma once
 
 #include "apps/requests/requests_of_renders.h"

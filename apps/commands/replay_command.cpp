@@ -18,10 +18,7 @@ using Json = nlohmann::ordered_json;
 
 // The sample that is asked for, and why it was named.
 ReportedSample choose(const ReplayRequest& request, const RecordedRun& run, const Film& film) {
-    if (!request.number)
-        return {{pixel_number(film, static_cast<int>((*request.pixel)[0]), static_cast<int>((*request.pixel)[1]), "--pixel"),
-                 *request.sample},
-                ""};
+    if (!request.number) return {{pixel_number(film, (*request.pixel)[0], (*request.pixel)[1], "--pixel"), *request.sample}, ""};
     const std::vector<ReportedSample> named = reported_samples(run, film);
     if (*request.number <= named.size()) return named[*request.number - 1];
     throw InputError(

@@ -87,7 +87,7 @@ void expect_growing(const char* option, const auto& values) {
 // Everything that must be unchanged to resume an interrupted study.
 Json identity(const StudyRequest& request, const Scene& scene) {
     Json json = {{"scene", scene.hash}, {"version", NEUMANN_VERSION}};
-    const std::set<std::string> free{"scene", "lenient", "error", "crop", "checkpoint"};
+    const std::set<std::string> free{"scene", "lenient", "error", "crop", "checkpoint", "reference-spp"};
     for (const Option<StudyRequest>& o : study_options().all)
         if (o.lasts && !free.contains(o.name)) json[o.name] = fmt::format("{}", fmt::join(o.texts(request), ","));
     return json;

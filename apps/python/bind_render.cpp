@@ -1,4 +1,5 @@
 // Renders, as `neumann render` makes and writes them.
+#include "apps/commands/merge_command.h"
 #include "apps/commands/print_warnings.h"
 #include "apps/commands/progress_line.h"
 #include "apps/commands/render_command.h"
@@ -80,6 +81,7 @@ std::unique_ptr<Job> start_merge(const Kept& a, const Kept& b) {
         BounceSeries series = render(*a->scene, merged.render.method, goal, {}, std::move(saving));
         auto kept = std::make_shared<Mergeable>(Mergeable{*a, std::move(state)});
         kept->series = std::move(series);
+        kept->request = asked_for_all(a->request, merged);
         kept->request.command_line = a->request.command_line + " merged with " + b->request.command_line;
         kept->seconds = clock.seconds();
         return [kept] { return py::cast(kept); };

@@ -78,6 +78,7 @@ Request request_of(const Options<Request>& options, const LoadedScene& scene, Ke
         const Option<Request>* o = options.find(name);
         if (!o) throw InputError(fmt::format("'{}' is no option of {}", name, options.command));
         if (!o->comma) texts = {fmt::format("{}", fmt::join(texts, ","))};
+        if (o->kind == OptionWords::Kind::flag && texts.front() == "false") continue;
         words.push_back(o->spelled());
         if (o->kind != OptionWords::Kind::flag) words.push_back(fmt::format("{}", fmt::join(texts, ",")));
     }

@@ -61,7 +61,7 @@ Form<Number> whole_from(std::uint64_t low, std::uint64_t high) {
 
 inline Form<double> real(std::function<bool(double)> fits, std::string expected) {
     const auto read = [=](const std::string& text) {
-        const auto x = number_in<double>(text);
+        const auto x = number_in<double>(text.starts_with('+') ? text.substr(1) : text);
         return x && std::isfinite(*x) && fits(*x) ? x : std::nullopt;
     };
     return {read, [](const double& x) { return fmt::format("{}", x); }, not_a(std::move(expected)), true};
@@ -72,10 +72,10 @@ inline Form<double> above_zero() {
 }
 
 // Two whole numbers with a sign between them: "3/16", "19,160".
-inline std::optional<std::array<std::int64_t, 2>> two_whole(const std::string& text, char sign) {
+inline std::optional<std::array<int, 2>> two_whole(const std::string& text, char sign) {
     const std::size_t between = text.find(sign);
     if (between == text.npos) return std::nullopt;
-    const auto a = number_in<std::int64_t>(text.substr(0, between)), b = number_in<std::int64_t>(text.substr(between + 1));
+    const auto a = number_in<int>(text.substr(0, between)), b = number_in<int>(text.substr(between + 1));
     return a && b ? std::optional(std::array{*a, *b}) : std::nullopt;
 }
 

@@ -171,6 +171,8 @@ void take(const Options<Request>& options, const Given& given, Request& request,
     for (const auto& [name, texts] : given) {
         const Option<Request>* o = options.find(name);
         if (!o) throw InputError(fmt::format("'{}' is no option of {}", name, options.command));
+        if (o->kind != OptionWords::Kind::many && texts.size() != 1)
+            throw InputError(fmt::format("{}: expected one value, not {}", spell(*o), texts.size()));
         for (const std::string& text : texts)
             if (const std::string wrong = o->wrong(text); !wrong.empty()) throw InputError(fmt::format("{}: {}", spell(*o), wrong));
         for (const std::string& other : o->excludes)

@@ -39,8 +39,7 @@ Option<R> of_method(const MethodOption& own) {
 Option<R> part_option() {
     const auto read = [](const std::string& text) -> std::optional<PartOfSamples> {
         const auto part = two_whole(text, '/');
-        constexpr std::int64_t most = 0xffffffff;
-        if (!part || (*part)[0] < 1 || (*part)[0] > (*part)[1] || (*part)[1] > most) return std::nullopt;
+        if (!part || (*part)[0] < 1 || (*part)[0] > (*part)[1]) return std::nullopt;
         return PartOfSamples{static_cast<std::uint32_t>((*part)[0]), static_cast<std::uint32_t>((*part)[1])};
     };
     return option<R>(

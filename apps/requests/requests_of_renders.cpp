@@ -60,9 +60,9 @@ const Options<ReplayRequest>& replay_options() {
                    whole_from(1, 1'000'000))
              .alone(),
          option<R>("pixel", "X,Y", "For any other sample: its pixel", &R::pixel,
-                   Form<std::array<std::int64_t, 2>>{[](const std::string& text) { return two_whole(text, ','); },
-                                                     [](const auto& p) { return fmt::format("{},{}", p[0], p[1]); },
-                                                     not_a("two whole numbers with a comma between, such as 19,160")})
+                   Form<std::array<int, 2>>{[](const std::string& text) { return two_whole(text, ','); },
+                                            [](const auto& p) { return fmt::format("{},{}", p[0], p[1]); },
+                                            not_a("two whole numbers with a comma between, such as 19,160")})
              .not_with("n")
              .only_with("sample"),
          option<R>("sample", "S", "Number of the sample in its pixel, counted from 0", &R::sample, whole_from(0, most_samples))

@@ -45,9 +45,9 @@ const Options<PageRequest>& page_options();
 // `neumann replay`
 struct ReplayRequest {
     std::string folder;
-    std::optional<std::uint64_t> number;               // number of a sample in the health report
-    std::optional<std::array<std::int64_t, 2>> pixel;  // or the sample's pixel x, y
-    std::optional<std::uint64_t> sample;               // and its number in the pixel
+    std::optional<std::uint64_t> number;      // number of a sample in the health report
+    std::optional<std::array<int, 2>> pixel;  // or the sample's pixel x, y
+    std::optional<std::uint64_t> sample;      // and its number in the pixel
     bool json = false;
 };
 

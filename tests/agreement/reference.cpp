@@ -9,11 +9,12 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <iterator>
 #include <map>
 #include <optional>
+#include <vector>
 
 namespace neumann::agreement {
 
@@ -57,7 +58,11 @@ const Reference& reference(const std::string& scene) {
 }
 
 bool is_of_today(const std::string& scene) {
-    return physics::is_of_today(static_cast<std::size_t>(std::distance(makers.begin(), makers.find(scene))));
+    // So that every test has some of its scenes each day.
+    static const std::vector<std::string> order{"cornell-box", "door-ajar",       "outdoor",        "metal-room",
+                                                "glass-ball",  "floating-panels", "facing-mirrors", "glossy-floor",
+                                                "furnace",     "mitsuba-cornell", "sphere-segment"};
+    return physics::is_of_today(static_cast<std::size_t>(std::ranges::find(order, scene) - order.begin()));
 }
 
 Count compare(const physics::Blocks& found, const Reference& reference, const Comparison& comparison) {

@@ -32,7 +32,7 @@ endfunction()
 
 expect(neumann
   "Package: neumann\n;Section: graphics\n;Depends: [^\n]*libneumann-pictures \\(= [^\n]*libembree;Recommends: fonts-dejavu-core\n"
-  "bin/neumann;share/man/man1/neumann.1.gz;share/man/man1/neumann-render.1.gz;share/doc/neumann/copyright;share/neumann/scenes/cornell-box/cornell-box.xml")
+  "bin/neumann;lib/neumann/neumann-experiments;share/man/man1/neumann.1.gz;share/man/man1/neumann-render.1.gz;share/doc/neumann/copyright;share/neumann/scenes/cornell-box/cornell-box.xml")
 expect(libneumann-pictures
   "Package: libneumann-pictures\n;Section: libs\n;Depends: [^\n]*libopenexr[^\n]*libopenimageio" "share/doc/libneumann-pictures/copyright")
 expect(libneumann-dev

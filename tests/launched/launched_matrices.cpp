@@ -125,13 +125,18 @@ TEST_F(LaunchedMatrices, AFolderThatIsInUseIsRefusedByAll) {
     other.wait();
 }
 
+// Whether the parser tells it, the request, or the command.
 TEST_F(LaunchedMatrices, OneSpeaksOfWhatIsWrong) {
-    const Finished done = run_program(on(2, neumann({"solve", scene("furnace"), "--channel", "x"})));
-    EXPECT_EQ(done.exit_code, 2);
-    EXPECT_EQ(done.out, "");
-    const std::string message = "--channel: x not in {r,g,b}";
-    ASSERT_NE(done.err.find(message), std::string::npos) << done.err;
-    EXPECT_EQ(done.err.find(message, done.err.find(message) + 1), std::string::npos) << done.err;
+    const std::vector<std::vector<std::string>> cases{{"--channel", "x", "--channel: x not in {r,g,b}"},
+                                                      {"-D", "res", "-D res: expected name=value"},
+                                                      {"-D", "colour=red", "-D colour=red: nothing"}};
+    for (const auto& wrong : cases) {
+        const Finished done = run_program(on(2, neumann({"solve", scene("furnace"), wrong[0], wrong[1]})));
+        EXPECT_EQ(done.exit_code, 2);
+        EXPECT_EQ(done.out, "");
+        ASSERT_NE(done.err.find(wrong[2]), std::string::npos) << done.err;
+        EXPECT_EQ(done.err.find(wrong[2], done.err.find(wrong[2]) + 1), std::string::npos) << done.err;
+    }
 }
 
 class PetscOfOneProcess : public LaunchedMatrices {};

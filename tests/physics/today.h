@@ -12,7 +12,7 @@ namespace neumann::physics {
 inline constexpr std::size_t parts_of_long_tests = 3;
 
 inline std::string day_of_tests() {
-    if (const char* const given = std::getenv("NEUMANN_TEST_DAY")) return given;
+    if (const char* const given = std::getenv("NEUMANN_TEST_DAY"); given && *given) return given;
     using Days = std::chrono::duration<long, std::ratio<86400>>;
     return std::to_string(std::chrono::duration_cast<Days>(std::chrono::system_clock::now().time_since_epoch()).count());
 }

@@ -20,7 +20,7 @@ nlohmann::ordered_json as_json(const Options<Request>& options, const Request& r
         if (!o.lasts || texts == o.texts(usual)) continue;
         if (o.kind == OptionWords::Kind::many)
             json[o.name] = texts;
-        else if (o.kind == OptionWords::Kind::flag || o.is_number)
+        else if ((o.kind == OptionWords::Kind::flag || o.is_number) && nlohmann::ordered_json::accept(texts.front()))
             json[o.name] = nlohmann::ordered_json::parse(texts.front());
         else
             json[o.name] = texts.front();
@@ -28,10 +28,10 @@ nlohmann::ordered_json as_json(const Options<Request>& options, const Request& r
     return json;
 }
 
-// Names may be spelled as on the command line, and values be lists of texts, as version 0.1 wrote them. Throws InputError, or the
-// JSON library's exception if it is no object.
+// Names may be spelled as on the command line, and values be lists of texts, as version 0.1 wrote run.json. Throws InputError that
+// begins with `file`, or the JSON library's exception if it is no object.
 template <class Request>
-Request request_from_json(const Options<Request>& options, const nlohmann::ordered_json& json) {
+Request request_from_json(const Options<Request>& options, const nlohmann::ordered_json& json, const std::string& file) try {
     Given given;
     const auto text = [](const nlohmann::ordered_json& value) {
         return value.is_string() ? value.get<std::string>() : value.dump();
@@ -47,6 +47,8 @@ Request request_from_json(const Options<Request>& options, const nlohmann::order
     Request request;
     take(options, given, request, [](const OptionWords& o) { return o.name; });
     return request;
+} catch (const InputError& error) {
+    throw InputError(file + ": what was asked of it is damaged: " + error.what());
 }
 
 }  // namespace neumann

@@ -1,5 +1,6 @@
 #include "operators/fields/matrix/traced_series.h"
 
+#include "operators/algebra/algebra.h"
 #include "operators/algebra/linked_series.h"
 #include "operators/fields/matrix/camera_vector.h"
 #include "operators/fields/matrix/chains.h"
