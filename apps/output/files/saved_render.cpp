@@ -183,9 +183,9 @@ RequestOnDisk request_in(const std::filesystem::path& folder) {
     if (!file) throw InputError(folder.string() + ": holds no render that could be resumed");
     try {
         const Json json = Json::parse(file);
+        if (!json.contains("request")) throw InputError(path.string() + ": tells no request, and cannot be resumed");
         if (json.at("samples").contains("merged"))
             throw InputError(path.string() + ": was merged of several seeds; render another seed and merge that, too");
-        if (!json.contains("request")) throw InputError(path.string() + ": tells no request, and cannot be resumed");
         return {json.at("request"), json.at("scene").at("hash")};
     } catch (const Json::exception& e) {
         throw InputError(fmt::format("{}: is not a run.json of this program's renders: {}", path.string(), e.what()));
