@@ -15,7 +15,6 @@ class FieldPicturesSlow : public testing::TestWithParam<const char*> {};
 // 4 with gather 92.3% to 94.6% are: caustics that few rays of four replicates meet (94.7% with four times as many rays). The others
 // had 95.2% and more. Three seeds, five in glass-ball.
 TEST_P(FieldPicturesSlow, AgreeWithPaths) {
-    if (!is_of_today(GetParam())) GTEST_SKIP() << "another day";
     const Reference& paths = reference(GetParam());
     constexpr int N = bounces;
     for (const FieldReading method : {FieldReading::matrix, FieldReading::gather}) {

@@ -4,17 +4,14 @@
 #include "operators/render/methods/method_options.h"
 #include "operators/statistics/student_t.h"
 #include "tests/physics/seed.h"
-#include "tests/physics/today.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <map>
 #include <optional>
-#include <vector>
 
 namespace neumann::agreement {
 
@@ -55,14 +52,6 @@ const Reference& reference(const std::string& scene) {
     static std::map<std::string, Reference> made;
     const auto there = made.find(scene);
     return there != made.end() ? there->second : made.emplace(scene, make(scene)).first->second;
-}
-
-bool is_of_today(const std::string& scene) {
-    // So that every test has some of its scenes each day.
-    static const std::vector<std::string> order{"cornell-box", "door-ajar",       "outdoor",        "metal-room",
-                                                "glass-ball",  "floating-panels", "facing-mirrors", "glossy-floor",
-                                                "furnace",     "mitsuba-cornell", "sphere-segment"};
-    return physics::is_of_today(static_cast<std::size_t>(std::ranges::find(order, scene) - order.begin()));
 }
 
 Count compare(const physics::Blocks& found, const Reference& reference, const Comparison& comparison) {

@@ -21,8 +21,6 @@ struct Reference {
 
 // Made once. Its seed is the fixed one, so that other pictures need another.
 const Reference& reference(const std::string& scene);
-// Whether a scene is one of those that are looked at today (tests/physics/today.h).
-bool is_of_today(const std::string& scene);
 
 struct Count {
     int within = 0, all = 0;

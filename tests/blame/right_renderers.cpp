@@ -1,7 +1,6 @@
 // blame accuses no right renderer, however it samples.
 #include "operators/experiments/blame/blame.h"
 #include "tests/blame/wrong_tracer.h"
-#include "tests/physics/today.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -71,7 +70,6 @@ TEST(RightRenderersSlow, AreNotAccused) {
         ExpectedPictures expected(room, ours.samples, 0.0, seed + static_cast<std::uint64_t>(number));
         expected.keep_all();
         for (int i = 0; i < ours.pictures; ++i, ++number) {
-            if (!physics::is_of_today(static_cast<std::size_t>(number / 3))) continue;
             // 4 and 16 samples, and now and then 64.
             const Case c{i % 7 == 6   ? 64
                          : i % 2 == 0 ? 4
@@ -83,7 +81,7 @@ TEST(RightRenderersSlow, AreNotAccused) {
         }
     }
     std::cout << counts.wrong << " of " << counts.all << " accused, " << counts.unclear << " unclear\n";
-    EXPECT_GE(counts.all, physics::all_are_of_today() ? 200 : 65);
+    EXPECT_EQ(counts.all, 200);
     EXPECT_LE(counts.wrong, 2);
 }
 
