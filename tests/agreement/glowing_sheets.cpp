@@ -54,12 +54,12 @@ Scene scene_with(const Sheet& sheet, Light light, double glow) {
     return maker.make();
 }
 
-class GlowingSheets : public testing::TestWithParam<Sheet> {};
-INSTANTIATE_TEST_SUITE_P(Materials, GlowingSheets, testing::ValuesIn(sheets()), [](const auto& s) { return s.param.name; });
+class GlowingSheetsSlow : public testing::TestWithParam<Sheet> {};
+INSTANTIATE_TEST_SUITE_P(Materials, GlowingSheetsSlow, testing::ValuesIn(sheets()), [](const auto& s) { return s.param.name; });
 
 // With a glow of a millionth nothing but the glow's own light differs, which is less than 1e-5. Within 5.5 standard errors of both,
 // and what they state of bias: 13 methods, 3 lights, 2 bounces.
-TEST_P(GlowingSheets, CarryLightAsDarkOnesDo) {
+TEST_P(GlowingSheetsSlow, CarryLightAsDarkOnesDo) {
     for (const Light light : {Light::sky, Light::sun, Light::lamp}) {
         Goal goal;
         goal.bounces = 2;
@@ -90,7 +90,7 @@ TEST_P(GlowingSheets, CarryLightAsDarkOnesDo) {
 
 // 4/π · a/√(1 + a²) · atan(a/√(1 + a²)), a = 3: the part of the plate's sky that the sheet takes up, seen from the plate's middle.
 // The camera sees points within 0.006 of it, which changes the value by less than 1e-5.
-TEST(GlowingSheet, LetsTheSkyThrough) {
+TEST(GlowingSheetSlow, LetsTheSkyThrough) {
     const double x = 3.0 / std::sqrt(10.0), exact = 4.0 / pi * x * std::atan(x);
     EXPECT_NEAR(exact, 0.9169, 1e-4);
     for (const double opacity : {0.0, 0.25}) {
@@ -114,7 +114,7 @@ TEST(GlowingSheet, LetsTheSkyThrough) {
 
 // A rectangle of matt white and one of nothing through it at 60°, under a sky: bounce 3 is light that came through the one and is
 // seen through it, which few paths make: fields that spread it over a whole side had 0.028 where paths have 0.048.
-TEST(GlowingSheet, OfNothingDoesNotSpreadItsLight) {
+TEST(GlowingSheetSlow, OfNothingDoesNotSpreadItsLight) {
     SceneMaker maker;
     maker.add(parallelogram({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}), matte(0.5));
     const double c = 0.5, s = std::sqrt(0.75);

@@ -86,8 +86,8 @@ std::vector<Body> bodies() {
             {"Instance", in_room(MeshInstance(std::make_shared<const SharedMesh>(body(4, 0.05)), place)), 0.2}};
 }
 
-class SmoothMeshes : public testing::TestWithParam<Body> {};
-INSTANTIATE_TEST_SUITE_P(Bodies, SmoothMeshes, testing::ValuesIn(bodies()), [](const auto& b) { return b.param.name; });
+class SmoothMeshesSlow : public testing::TestWithParam<Body> {};
+INSTANTIATE_TEST_SUITE_P(Bodies, SmoothMeshesSlow, testing::ValuesIn(bodies()), [](const auto& b) { return b.param.name; });
 
 // With patches for which the stated bias is small, but for `patches`, whose picture is the field itself.
 std::vector<Method> methods() {
@@ -101,7 +101,7 @@ std::vector<Method> methods() {
 
 // Means of bounces 1 to 3, within 4.5 standard errors of both, as t has them, and what is stated of bias: a false alarm in one of
 // 1000 seeds, if the means were normal.
-TEST_P(SmoothMeshes, AreLitByEveryMethodAsByWalks) {
+TEST_P(SmoothMeshesSlow, AreLitByEveryMethodAsByWalks) {
     const Scene scene = scene_of(GetParam().shapes);
     Goal goal;
     goal.bounces = 3;

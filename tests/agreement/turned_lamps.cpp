@@ -66,7 +66,7 @@ Scene scene_of(std::uint64_t seed) {
 // NEUMANN_TURNED_LAMPS scenes, or 8. No method crashes or hangs, and bounces 1 and 2 are those of the walk within 5.5 standard
 // errors and the stated discretisation: a false alarm in about 1 of 2000 runs, as replicates are few (t of 15 degrees of freedom).
 // Passed with 1000 scenes.
-TEST(TurnedLamps, LightByEveryMethodAsByWalks) {
+TEST(TurnedLampsSlow, LightByEveryMethodAsByWalks) {
     const char* const asked = std::getenv("NEUMANN_TURNED_LAMPS");
     const std::uint64_t scenes = asked ? std::strtoull(asked, nullptr, 10) : 8;
     for (std::uint64_t number = 0; number < scenes; ++number) {
@@ -94,7 +94,7 @@ TEST(TurnedLamps, LightByEveryMethodAsByWalks) {
 
 // Where nothing else is, light comes back to a lamp from the sky alone: a flat lamp does not light itself, however it is turned.
 // The exact value is ρ · 1.
-TEST(TurnedLamps, DoNotLightThemselves) {
+TEST(TurnedLampsSlow, DoNotLightThemselves) {
     for (std::uint64_t number = 0; number < 9; ++number) {
         Numbers u(physics::fixed_seed + number);
         SceneMaker maker;

@@ -12,8 +12,8 @@
 
 namespace neumann::physics {
 
-// Means over blocks of pixels, of each channel and quantity, replicate by replicate, which are added to `pixels`, too, if it is
-// given.
+// Means over blocks of pixels and, as one block more, over the whole picture, of each channel and quantity, replicate by replicate;
+// the replicates are added to `pixels`, too, if it is given.
 class Blocks {
 public:
     Blocks(const Scene& scene, const SamplingSettings& settings, int block, std::uint64_t replicates,
@@ -21,22 +21,23 @@ public:
         : terms_(settings.pictures()), replicates_(replicates), radii_(settings.method->two_radii()) {
         const PictureSampler sampler(scene, settings);
         const std::size_t Q = settings.quantities();
-        const auto width = static_cast<std::size_t>(sampler.width()), size = static_cast<std::size_t>(block);
-        columns_ = width / size;
+        const auto size = static_cast<std::size_t>(block);
+        width_ = static_cast<std::size_t>(sampler.width());
         size_ = size;
         if (Q > terms_) differences_.assign(terms_, Image(sampler.width(), sampler.height()));
-        blocks_ = columns_ * (static_cast<std::size_t>(sampler.height()) / size);
+        blocks_ = width_ / size * (static_cast<std::size_t>(sampler.height()) / size);
         quantities_ = Q;
         Tally tally(Q);
         for (std::uint64_t r = 0; r < replicates; ++r) {
             const auto node = sampler.run(r, 1, tally).value();
-            std::vector<double> of(blocks_ * Q * 3, 0.0);
-            for (std::size_t pixel = 0; pixel < width * static_cast<std::size_t>(sampler.height()); ++pixel) {
-                const std::size_t b = pixel / width / size * columns_ + pixel % width / size;
+            std::vector<double> of((blocks_ + 1) * Q * 3, 0.0);
+            for (std::size_t pixel = 0; pixel < width_ * static_cast<std::size_t>(sampler.height()); ++pixel) {
+                const std::size_t b = block_of(pixel);
                 for (std::size_t q = 0; q < Q; ++q)
                     for (std::size_t c = 0; c < 3; ++c) {
                         const double value = node.data[(pixel * Q + q) * PixelMoments::doubles_per_quantity + c];
                         of[(b * Q + q) * 3 + c] += value / static_cast<double>(size * size);
+                        of[(blocks_ * Q + q) * 3 + c] += value / static_cast<double>(size * size * blocks_);
                         if (q >= terms_)
                             differences_[q - terms_].pixels[pixel][static_cast<int>(c)] += value / static_cast<double>(replicates);
                     }
@@ -67,12 +68,14 @@ public:
     // The mean over the block of the bias that a render of all replicates states.
     double stated_bias(std::size_t block, std::size_t term, std::size_t channel) const {
         const Image bias = neumann::stated_bias(*radii_, differences_.at(term));
-        const int left = static_cast<int>(block % columns_ * size_), top = static_cast<int>(block / columns_ * size_),
-                  size = static_cast<int>(size_);
         double sum = 0.0;
-        for (int y = top; y < top + size; ++y)
-            for (int x = left; x < left + size; ++x) sum += bias.at(x, y)[static_cast<int>(channel)];
-        return sum / (size * size);
+        std::size_t pixels = 0;
+        for (std::size_t pixel = 0; pixel < bias.pixels.size(); ++pixel) {
+            if (block != blocks_ && block != block_of(pixel)) continue;
+            sum += bias.pixels[pixel][static_cast<int>(channel)];
+            ++pixels;
+        }
+        return sum / static_cast<double>(pixels);
     }
     // Of a replicate, from the differences of successive ones of [begin, end), whose means are nearly the same.
     double variance(std::size_t block, std::size_t term, std::size_t channel, std::uint64_t begin, std::uint64_t end) const {
@@ -85,7 +88,9 @@ public:
     std::uint64_t replicates() const { return replicates_; }
 
 private:
-    std::size_t terms_, quantities_ = 0, columns_ = 0, blocks_ = 0, size_ = 0;
+    std::size_t block_of(std::size_t pixel) const { return pixel / width_ / size_ * (width_ / size_) + pixel % width_ / size_; }
+
+    std::size_t terms_, quantities_ = 0, width_ = 0, blocks_ = 0, size_ = 0;
     std::uint64_t replicates_;
     std::optional<TwoRadii> radii_;
     std::vector<Image> differences_;  // of terms between two radii, means over replicates

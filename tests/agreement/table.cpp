@@ -1,0 +1,188 @@
+// One table: every way to make all paths in every scene that is there to compare methods, bounce by bounce, beside the reference of
+// the scene. A third of its cells is of a day, in which every method has a third of its scenes and every scene a third of its
+// methods; nightly has all.
+#include "operators/render/from_paths/walk_paths.h"
+#include "operators/render/methods/method_options.h"
+#include "operators/statistics/student_t.h"
+#include "tests/agreement/reference.h"
+#include "tests/physics/seed.h"
+#include "tests/physics/today.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <map>
+
+namespace neumann::agreement::table_test {
+
+using physics::Blocks;
+
+// What is stated of the bias of the mean of a block.
+enum class Bias { none, of_means, of_pixels };
+
+// Values of a scene go together: its channels have the same paths, and all blocks of a replicate what the replicate shares. So n of
+// them are about as many as n/3, or fewer, and the part of a scene that has to be within the 95% intervals leaves them three
+// standard deviations of their number.
+struct Row {
+    std::string name;
+    std::function<SamplingSettings(const Scene&, std::uint64_t seed)> settings;
+    std::uint64_t replicates;
+    double known;               // values are left out that the reference does not know to this part
+    double power;               // the largest error that a mean of the picture may have, as a part of it or of 1% of bounce 1
+    double of_a_scene, of_all;  // the least parts within their intervals
+    std::vector<std::string> scenes;
+    Bias bias = Bias::none;
+    int far = 0;  // so many values of a scene may be further off than 4.5 standard errors
+};
+
+auto by(const std::string& method, const std::vector<std::pair<std::string, std::string>>& options = {}, std::uint32_t size = 0) {
+    return [=](const Scene& scene, std::uint64_t seed) {
+        SamplingSettings settings = physics::settings_of(scene, make_method({method, options}), bounces, seed, 0.5);
+        if (size > 0) settings.replicate_size = size;
+        return settings;
+    };
+}
+auto by_trees(const std::vector<double>& ratios) {
+    return [=](const Scene& scene, std::uint64_t seed) {
+        SamplingSettings settings = by("walk")(scene, seed);
+        settings.method = std::make_shared<const WalkPaths>(std::make_shared<const TreeRatios>(TreeRatios{ratios}));
+        return settings;
+    };
+}
+
+std::vector<Row> rows() {
+    const std::vector<std::string> all = scenes_with_reference(),
+                                   of_walks{"cornell-box",  "facing-mirrors",  "floating-panels", "furnace",
+                                            "glossy-floor", "mitsuba-cornell", "sphere-segment"};
+    const auto without = [&](std::vector<std::string> left_out) {
+        std::vector<std::string> scenes = all;
+        std::erase_if(scenes, [&](const std::string& s) { return std::ranges::find(left_out, s) != left_out.end(); });
+        return scenes;
+    };
+    return {
+        {"bidirectional", by("bidirectional"), 64, 0.05, 1.0, 0.8, 0.9, of_walks},
+        {"light", by("light"), 64, 0.05, 1.0, 0.8, 0.9, {"cornell-box", "door-ajar", "floating-panels", "furnace"}},
+        {"surface", by("surface"), 64, 0.05, 1.0, 0.8, 0.9, {"floating-panels"}},
+        {"walk_in_trees", by_trees({0.3, 3.4, 0.5, 1.6}), 64, 0.05, 1.0, 0.8, 0.9, {"cornell-box", "floating-panels"}},
+        {"walk_split", by_trees({7.0}), 64, 0.05, 1.0, 0.8, 0.9, {"cornell-box", "floating-panels"}},
+        {"walk_thinned", by_trees({0.2, 0.6, 0.6, 0.6}), 64, 0.05, 1.0, 0.8, 0.9, {"cornell-box", "floating-panels"}},
+        {"walk_reused", by("walk", {{"reuse", "8"}}), 64, 0.05, 1.0, 0.8, 0.9,
+         without({"metal-room", "furnace", "sphere-segment", "mitsuba-cornell"})},
+        {"guided", by("guided", {{"patches", "500"}, {"directions", "256"}}), 64, 0.05, 1.0, 0.8, 0.9, all},
+        {"corrected", by("corrected", {{"patches", "300"}, {"directions", "32"}}, 8), 64, 0.05, 1.0, 0.8, 0.9, all},
+        {"photon", by("photon", {{"gather", "false"}, {"photons", "16384"}}), 128, 0.02, 1.0, 0.9, 0.95, all, Bias::of_means},
+        {"photon_gathered", by("photon", {{"gather", "true"}, {"photons", "16384"}}), 128, 0.02, 1.0, 0.9, 0.95,
+         without({"furnace", "mitsuba-cornell", "floating-panels", "sphere-segment"}), Bias::of_means},
+        {"cache_by_hessians",
+         by("cache", {{"records", "hessian"}, {"directions", "128"}}),
+         24,
+         0.02,
+         1.0,
+         0.85,
+         0.95,
+         {"cornell-box", "door-ajar", "metal-room", "outdoor"},
+         Bias::of_pixels},
+        {"cache_by_split_spheres",
+         by("cache", {{"records", "split-sphere"}, {"directions", "128"}}),
+         24,
+         0.02,
+         1.0,
+         0.85,
+         0.95,
+         {"cornell-box", "floating-panels"},
+         Bias::of_pixels},
+        {"mixed", by("mixed"), 64, 0.05, 1.0, 0.85, 0.92, without({"sphere-segment"})},
+        {"metropolis", by("metropolis"), 48, 0.05, 1.0, 0.8, 0.91, all},
+    };
+}
+
+struct Cell {
+    Row row;
+    std::string scene;
+    std::size_t number;  // of the row and the scene, which share out the table among days
+    friend void PrintTo(const Cell& cell, std::ostream* out) { *out << cell.row.name << " in " << cell.scene; }
+};
+std::vector<Cell> cells() {
+    std::vector<Cell> cells;
+    const std::vector<std::string> scenes = scenes_with_reference();
+    std::size_t number = 0;
+    for (const Row& row : rows()) {
+        for (const std::string& scene : row.scenes)
+            cells.push_back({row, scene, number + static_cast<std::size_t>(std::ranges::find(scenes, scene) - scenes.begin())});
+        ++number;
+    }
+    return cells;
+}
+
+struct Count {
+    int within = 0, all = 0, cells = 0;
+};
+std::map<std::string, Count> counts;  // of rows
+
+class TableSlow : public testing::TestWithParam<Cell> {
+public:
+    static void TearDownTestSuite() {
+        for (const Row& row : rows()) {
+            const Count& count = counts[row.name];
+            if (count.cells < static_cast<int>(row.scenes.size())) continue;
+            std::printf("%s: %d of %d within\n", row.name.c_str(), count.within, count.all);
+            EXPECT_GE(count.within, row.of_all * count.all) << row.name;
+        }
+    }
+};
+
+// All terms of all blocks and of the picture, in each channel, and the rest if the reference knows it. Where both are exact they
+// are the same; elsewhere |found − reference| ≤ 4.5 SE + 2 bias, but for values of paths that are so rare that few replicates do
+// not tell their spread, and it is counted how many are within t SE + bias, 95% of them in the long run.
+TEST_P(TableSlow, AgreesWithTheReference) {
+    const auto& [row, name, number] = GetParam();
+    if (!physics::is_of_today(number)) GTEST_SKIP() << "of another day";
+    const Reference& exact = reference(name);
+    const SamplingSettings settings = row.settings(exact.scene, physics::fixed_seed + 1);
+    ASSERT_EQ(settings.method->paths(exact.scene), Paths::all) << "not all paths are made";
+    const Blocks found(exact.scene, settings, block, row.replicates);
+    const double t = student_t_quantile(0.95, static_cast<double>(row.replicates) - 1.0);
+    Count count{.cells = 1};
+    int far = 0;
+    double largest = 0.0, worst = 0.0;
+    for (std::size_t q = 0; q <= bounces + (exact.knows_rest ? 1 : 0); ++q)
+        for (std::size_t channel = 0; channel < 3; ++channel)
+            for (std::size_t b = 0; b <= blocks; ++b) {
+                const Blocks::Value f = found.at(b, q, channel, row.replicates), &r = exact.at(b, q, channel);
+                const double error = std::hypot(f.error, r.error), off = std::abs(f.mean - r.mean);
+                if (b == blocks) worst = std::max(worst, error / std::max(r.mean, 0.01 * exact.at(b, 1, channel).mean));
+                if (r.mean == 0.0 || r.error > row.known * r.mean) continue;
+                const double bias = row.bias == Bias::none       ? 0.0
+                                    : row.bias == Bias::of_means ? f.bias
+                                                                 : found.stated_bias(b, q, channel);
+                if (error == 0.0) {
+                    EXPECT_NEAR(f.mean, r.mean, 2.0 * bias + 1e-9 * r.mean);
+                    continue;
+                }
+                count.within += off <= t * error + bias ? 1 : 0;
+                ++count.all;
+                largest = std::max(largest, off / error);
+                if (off > 4.5 * error + 2.0 * bias && ++far > row.far)
+                    ADD_FAILURE() << "bounce " << q << ", block " << b << ", channel " << channel << ": " << f.mean << " ± "
+                                  << f.error << " and bias " << bias << ", " << r.mean << " ± " << r.error;
+            }
+    std::printf("%d of %d within, at most %.2f SE off, %d too far; largest error of a mean %.2f%%\n", count.within, count.all,
+                largest, far, 100.0 * worst);
+    EXPECT_GE(count.all, 30);
+    EXPECT_GE(count.within, row.of_a_scene * count.all);
+    EXPECT_LE(worst, row.power) << "no power";
+    Count& of_row = counts[row.name];
+    of_row.within += count.within, of_row.all += count.all, ++of_row.cells;
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, TableSlow, testing::ValuesIn(cells()), [](const auto& cell) {
+    std::string name = cell.param.row.name + "_in_" + cell.param.scene;
+    std::ranges::replace(name, '-', '_');
+    return name;
+});
+
+}  // namespace neumann::agreement::table_test
