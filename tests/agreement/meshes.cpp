@@ -6,6 +6,7 @@
 #include "operators/statistics/student_t.h"
 #include "tests/agreement/every_method.h"
 #include "tests/physics/seed.h"
+#include "tests/physics/today.h"
 
 #include <gtest/gtest.h>
 #include <glm/gtc/matrix_transform.hpp>
@@ -112,7 +113,9 @@ TEST_P(SmoothMeshesSlow, AreLitByEveryMethodAsByWalks) {
     goal.seed += 1;
     goal.samples = 256;
     goal.replicates = 16;
+    std::size_t number = std::string(GetParam().name).size();  // bodies begin with another method
     for (const Method& method : methods()) {
+        if (!physics::is_of_today(number++)) continue;
         SCOPED_TRACE(std::string(name_of(method)));
         const BounceSeries found = render(scene, method, goal);
         for (std::size_t bounce = 1; bounce <= 3; ++bounce) {

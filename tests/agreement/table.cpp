@@ -32,17 +32,37 @@ struct Row {
     std::function<SamplingSettings(const Scene&, std::uint64_t seed)> settings;
     std::uint64_t replicates;
     double known;               // values are left out that the reference does not know to this part
-    double power;               // the largest error that a mean of the picture may have, as a part of it or of 1% of bounce 1
     double of_a_scene, of_all;  // the least parts within their intervals
     std::vector<std::string> scenes;
     Bias bias = Bias::none;
-    int far = 0;  // so many values of a scene may be further off than 4.5 standard errors
+    // Where rare paths bring light, few replicates of some methods do not tell the spread of all values: so many may be further off
+    // than 4.5 standard errors. What is wrong in a block is so in three channels of several bounces.
+    std::size_t far = 0;
 };
 
-auto by(const std::string& method, const std::vector<std::pair<std::string, std::string>>& options = {}, std::uint32_t size = 0) {
+bool has_rare_paths(const std::string& scene) {
+    return scene == "door-ajar" || scene == "glass-ball" || scene == "metal-room" || scene == "outdoor";
+}
+// The largest error that the mean of a bounce over the picture may have, as a part of it: a table without power sees nothing. What
+// goes to and fro between mirrors, and what glass gathers, has few paths, and few of a sky's photons come where the camera looks.
+double largest_error(const std::string& method, const std::string& scene) {
+    if (scene == "outdoor" && method.starts_with("photon")) return 0.2;
+    return scene == "facing-mirrors" || scene == "glass-ball" ? 0.15 : scene == "glossy-floor" ? 0.08 : 0.05;
+}
+
+using Options = std::vector<std::pair<std::string, std::string>>;
+auto by(const std::string& method, const Options& options = {}, std::uint32_t size = 0) {
     return [=](const Scene& scene, std::uint64_t seed) {
         SamplingSettings settings = physics::settings_of(scene, make_method({method, options}), bounces, seed, 0.5);
         if (size > 0) settings.replicate_size = size;
+        return settings;
+    };
+}
+// Where a surface is met at a short distance the weights of its points have no variance, which the rest gathers from all of them.
+auto by_surfaces() {
+    return [](const Scene& scene, std::uint64_t seed) {
+        SamplingSettings settings = by("surface")(scene, seed);
+        settings.walk.rest_probability = 0.0;
         return settings;
     };
 }
@@ -63,25 +83,29 @@ std::vector<Row> rows() {
         std::erase_if(scenes, [&](const std::string& s) { return std::ranges::find(left_out, s) != left_out.end(); });
         return scenes;
     };
+    const Options guide{{"patches", "500"}, {"directions", "256"}},
+        guide_to_lights{{"patches", "500"}, {"directions", "256"}, {"direct", "light"}};
     return {
-        {"bidirectional", by("bidirectional"), 64, 0.05, 1.0, 0.8, 0.9, of_walks},
-        {"light", by("light"), 64, 0.05, 1.0, 0.8, 0.9, {"cornell-box", "door-ajar", "floating-panels", "furnace"}},
-        {"surface", by("surface"), 64, 0.05, 1.0, 0.8, 0.9, {"floating-panels"}},
-        {"walk_in_trees", by_trees({0.3, 3.4, 0.5, 1.6}), 64, 0.05, 1.0, 0.8, 0.9, {"cornell-box", "floating-panels"}},
-        {"walk_split", by_trees({7.0}), 64, 0.05, 1.0, 0.8, 0.9, {"cornell-box", "floating-panels"}},
-        {"walk_thinned", by_trees({0.2, 0.6, 0.6, 0.6}), 64, 0.05, 1.0, 0.8, 0.9, {"cornell-box", "floating-panels"}},
-        {"walk_reused", by("walk", {{"reuse", "8"}}), 64, 0.05, 1.0, 0.8, 0.9,
-         without({"metal-room", "furnace", "sphere-segment", "mitsuba-cornell"})},
-        {"guided", by("guided", {{"patches", "500"}, {"directions", "256"}}), 64, 0.05, 1.0, 0.8, 0.9, all},
-        {"corrected", by("corrected", {{"patches", "300"}, {"directions", "32"}}, 8), 64, 0.05, 1.0, 0.8, 0.9, all},
-        {"photon", by("photon", {{"gather", "false"}, {"photons", "16384"}}), 128, 0.02, 1.0, 0.9, 0.95, all, Bias::of_means},
-        {"photon_gathered", by("photon", {{"gather", "true"}, {"photons", "16384"}}), 128, 0.02, 1.0, 0.9, 0.95,
+        {"bidirectional", by("bidirectional"), 64, 0.05, 0.85, 0.9, of_walks},
+        {"light", by("light"), 64, 0.05, 0.85, 0.9, {"cornell-box", "door-ajar", "floating-panels", "furnace"}},
+        {"surface", by_surfaces(), 64, 0.05, 0.85, 0.9, {"floating-panels"}},
+        {"walk_in_trees", by_trees({0.3, 3.4, 0.5, 1.6}), 64, 0.05, 0.85, 0.9, {"cornell-box", "floating-panels"}},
+        {"walk_split", by_trees({7.0}), 32, 0.05, 0.85, 0.9, {"cornell-box", "floating-panels"}},
+        {"walk_thinned", by_trees({0.2, 0.6, 0.6, 0.6}), 128, 0.05, 0.85, 0.9, {"cornell-box", "floating-panels"}},
+        {"walk_reused", by("walk", {{"reuse", "true"}}), 64, 0.05, 0.85, 0.9,
+         without({"glass-ball", "metal-room", "sphere-segment"})},
+        {"walk_reused_with_roulette", by("walk", {{"reuse", "true"}, {"roulette", "0.7"}}), 64, 0.05, 0.85, 0.9, {"cornell-box"}},
+        {"guided", by("guided", guide), 64, 0.05, 0.85, 0.9, without({"glass-ball", "metal-room"})},
+        {"guided_among_metals", by("guided", guide), 256, 0.05, 0.85, 0.9, {"metal-room"}},
+        {"guided_to_lights", by("guided", guide_to_lights), 64, 0.05, 0.85, 0.9, {"cornell-box"}},
+        {"corrected", by("corrected", {{"patches", "300"}, {"directions", "32"}}, 8), 64, 0.05, 0.85, 0.9, without({"glass-ball"})},
+        {"photon", by("photon", {{"gather", "false"}, {"photons", "16384"}}), 128, 0.02, 0.9, 0.95, all, Bias::of_means},
+        {"photon_gathered", by("photon", {{"gather", "true"}, {"photons", "16384"}}), 128, 0.02, 0.9, 0.95,
          without({"furnace", "mitsuba-cornell", "floating-panels", "sphere-segment"}), Bias::of_means},
         {"cache_by_hessians",
          by("cache", {{"records", "hessian"}, {"directions", "128"}}),
          24,
          0.02,
-         1.0,
          0.85,
          0.95,
          {"cornell-box", "door-ajar", "metal-room", "outdoor"},
@@ -90,13 +114,12 @@ std::vector<Row> rows() {
          by("cache", {{"records", "split-sphere"}, {"directions", "128"}}),
          24,
          0.02,
-         1.0,
          0.85,
          0.95,
          {"cornell-box", "floating-panels"},
          Bias::of_pixels},
-        {"mixed", by("mixed"), 64, 0.05, 1.0, 0.85, 0.92, without({"sphere-segment"})},
-        {"metropolis", by("metropolis"), 48, 0.05, 1.0, 0.8, 0.91, all},
+        {"mixed", by("mixed"), 64, 0.05, 0.85, 0.92, without({"sphere-segment"}), Bias::none, 4},
+        {"metropolis", by("metropolis"), 48, 0.05, 0.8, 0.91, all, Bias::none, 4},
     };
 }
 
@@ -147,15 +170,15 @@ TEST_P(TableSlow, AgreesWithTheReference) {
     const Blocks found(exact.scene, settings, block, row.replicates);
     const double t = student_t_quantile(0.95, static_cast<double>(row.replicates) - 1.0);
     Count count{.cells = 1};
-    int far = 0;
+    std::size_t far = 0;
     double largest = 0.0, worst = 0.0;
-    for (std::size_t q = 0; q <= bounces + (exact.knows_rest ? 1 : 0); ++q)
+    for (std::size_t q = 0; q <= bounces + (exact.knows_rest && settings.walk.rest_probability > 0.0 ? 1 : 0); ++q)
         for (std::size_t channel = 0; channel < 3; ++channel)
             for (std::size_t b = 0; b <= blocks; ++b) {
                 const Blocks::Value f = found.at(b, q, channel, row.replicates), &r = exact.at(b, q, channel);
                 const double error = std::hypot(f.error, r.error), off = std::abs(f.mean - r.mean);
-                if (b == blocks) worst = std::max(worst, error / std::max(r.mean, 0.01 * exact.at(b, 1, channel).mean));
                 if (r.mean == 0.0 || r.error > row.known * r.mean) continue;
+                if (b == blocks) worst = std::max(worst, error / r.mean);
                 const double bias = row.bias == Bias::none       ? 0.0
                                     : row.bias == Bias::of_means ? f.bias
                                                                  : found.stated_bias(b, q, channel);
@@ -166,15 +189,15 @@ TEST_P(TableSlow, AgreesWithTheReference) {
                 count.within += off <= t * error + bias ? 1 : 0;
                 ++count.all;
                 largest = std::max(largest, off / error);
-                if (off > 4.5 * error + 2.0 * bias && ++far > row.far)
+                if (off > 4.5 * error + 2.0 * bias && ++far > (has_rare_paths(name) ? row.far : 0))
                     ADD_FAILURE() << "bounce " << q << ", block " << b << ", channel " << channel << ": " << f.mean << " ± "
                                   << f.error << " and bias " << bias << ", " << r.mean << " ± " << r.error;
             }
-    std::printf("%d of %d within, at most %.2f SE off, %d too far; largest error of a mean %.2f%%\n", count.within, count.all,
+    std::printf("%d of %d within, at most %.2f SE off, %zu too far; largest error of a mean %.2f%%\n", count.within, count.all,
                 largest, far, 100.0 * worst);
     EXPECT_GE(count.all, 30);
     EXPECT_GE(count.within, row.of_a_scene * count.all);
-    EXPECT_LE(worst, row.power) << "no power";
+    EXPECT_LE(worst, largest_error(row.name, name));
     Count& of_row = counts[row.name];
     of_row.within += count.within, of_row.all += count.all, ++of_row.cells;
 }

@@ -1,7 +1,6 @@
 // The walk and the plain operators say the same of every bounce of the Cornell box: pictures of 32×32 pixels, their means and those
 // of blocks of 8×8.
 #include "core/reader/read_scene.h"
-#include "operators/render/from_paths/guided_paths.h"
 #include "operators/render/from_paths/picture_sampler.h"
 #include "tests/physics/paths_of.h"
 #include "tests/physics/seed.h"
@@ -85,36 +84,5 @@ TEST(AgreementSlow, OfTheOperatorsAndTheWalkInEveryBounce) {
                 found.largest, 100.0 * found.beyond_two / found.count, 100.0 * found.worst_error);
     EXPECT_LE(found.worst_error, 0.025);
 }
-
-// The walk and the guided walk, on diffuse surfaces and among mirrors and rough metals, in the same pictures and
-// blocks. About 850 comparisons of a scene, false alarm 0.6%; the error of a picture's mean is at most 1%, for which the small
-// bounces that mirrors send back in metal-room need more samples.
-class AgreementOfGuidedSlow : public testing::TestWithParam<const char*> {};
-
-TEST_P(AgreementOfGuidedSlow, WithTheWalkInEveryBounce) {
-    const std::string name = GetParam();
-    const Scene scene = read_scene(SCENES "/" + name + "/" + name + ".xml", {{"res", std::to_string(resolution)}});
-    const std::uint64_t samples = name == "metal-room" ? 4096 : 1024;
-    const auto walk = render(scene, plain_walks(), DirectLight::mis, physics::fixed_seed, 2 * samples);
-    Comparison found;
-    for (const DirectLight direct : {DirectLight::mis, DirectLight::light}) {
-        const std::uint64_t seed = physics::fixed_seed + 1 + static_cast<std::uint64_t>(direct);
-        const auto guide = std::make_shared<const GuidedPaths>(
-            std::make_shared<const Guide>(scene, GuideSettings{.patches = 500, .rays = 256, .bounces = bounces, .seed = seed}));
-        const auto guided = render(scene, guide, direct, seed, samples);
-        for (std::size_t i = 0; i <= bounces; ++i)
-            for (const int size : {resolution, 8}) {
-                const std::string what =
-                    "direct light " + std::to_string(static_cast<int>(direct)) + ", bounce " + std::to_string(i);
-                compare_blocks(guided.term(i), walk.term(i), size, what, found);
-                compare_blocks(guided.sum(i), walk.sum(i), size, what + ", sum", found);
-            }
-    }
-    std::printf("largest |z| of %d: %.2f; beyond 2: %.1f%%; largest error of a picture's mean: %.2f%%\n", found.count,
-                found.largest, 100.0 * found.beyond_two / found.count, 100.0 * found.worst_error);
-    EXPECT_LE(found.worst_error, 0.01);
-}
-
-INSTANTIATE_TEST_SUITE_P(Scenes, AgreementOfGuidedSlow, testing::Values("cornell-box", "metal-room"));
 
 }  // namespace neumann::agreement_pictures_test
