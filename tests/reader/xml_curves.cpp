@@ -18,10 +18,6 @@ protected:
         return std::get<TriangleMesh>(
             read("<shape type='" + type + "'><string name='filename' value='hair.txt'/>" + inside + "</shape>").shapes.at(0));
     }
-    std::string curve_error(const std::string& type, const std::string& points) const {
-        write("hair.txt", points);
-        return error("<shape type='" + type + "'><string name='filename' value='hair.txt'/></shape>");
-    }
 };
 
 double area(const TriangleMesh& mesh) {
@@ -201,23 +197,6 @@ TEST_F(XmlCurves, AreConverted) {
     EXPECT_EQ(converted.files, (std::map<std::string, std::string>{{"meshes/hair.txt", points}}));
     EXPECT_NE(converted.xml.find("<shape type=\"linearcurve\">"), std::string::npos);
     EXPECT_NE(converted.xml.find("value=\"meshes/hair.txt\""), std::string::npos);
-}
-
-TEST_F(XmlCurves, Messages) {
-    EXPECT_EQ(curve_error("linearcurve", "0 0 0\n"), "hair.txt:1:6: expected a number, found the end of the line");
-    EXPECT_EQ(curve_error("linearcurve", "0 0 0 1 2\n0 0 1 1\n"), "hair.txt:1:9: expected the end of the line, found '2'");
-    EXPECT_EQ(curve_error("linearcurve", "0 0 0 -1\n0 0 1 1\n"), "hair.txt:1:7: the radius is -1, expected at least 0");
-    EXPECT_EQ(curve_error("linearcurve", "0 0 x 1\n"), "hair.txt:1:5: expected a number, found 'x'");
-    EXPECT_EQ(curve_error("linearcurve", "0 0 0 1\n0 0 1 1\n\n0 0 2 1\n"),
-              "hair.txt:4:1: the curve has 1 point, expected at least 2");
-    EXPECT_EQ(curve_error("bsplinecurve", "0 0 0 1\n0 0 1 1\n0 0 2 1\n"),
-              "hair.txt:1:1: the curve has 3 points, expected at least 4");
-    EXPECT_EQ(curve_error("bsplinecurve", "\n \n"), "hair.txt: has no curves, expected lines of four numbers, x y z and a radius");
-    EXPECT_EQ(
-        curve_error("bsplinecurve", "0 0 0 1e-9\n1 1 0 1e-9\n0 2 0 1e-9\n3 3 0 1e-9\n"),
-        "hair.txt:1:1: the curve would need more than 4096 straight pieces between two points: it is too thin for how it bends");
-    EXPECT_EQ(error("<shape type='linearcurve'/>"),
-              "scene.xml:2:1: shape 'linearcurve' lacks the parameter 'filename', expected string");
 }
 
 }  // namespace neumann::xml_curves_test

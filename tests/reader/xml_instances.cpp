@@ -100,40 +100,6 @@ TEST_F(XmlInstances, StretchedDisk) {
     EXPECT_LT(glm::distance(std::get<Disk>(parts.shapes.at(0)).normal, glm::normalize(Vec3(1.0 / 3.0, 0.0, 1.0))), 1e-15);
 }
 
-TEST_F(XmlInstances, Errors) {
-    EXPECT_EQ(error("<shape type='instance'/>"), "scene.xml:2:1: shape 'instance' has no shapegroup inside, expected one");
-    EXPECT_EQ(error("<shape type='shapegroup'/>"),
-              "scene.xml:2:1: shape 'shapegroup' has no <shape> inside, expected at least one");
-    EXPECT_EQ(error("<shape type='sphere' id='s'/>\n<shape type='instance'><ref id='s'/></shape>"),
-              "scene.xml:3:1: instance of a shape 'sphere', expected a shapegroup");
-    EXPECT_EQ(error("<shape type='shapegroup' id='g'><shape type='cube'/></shape>\n"
-                    "<shape type='instance'><ref id='g'/><ref id='g'/></shape>"),
-              "scene.xml:3:37: shape 'instance' has more than one <shape>");
-    EXPECT_EQ(error("<shape type='shapegroup' id='g'><shape type='cube'/></shape>\n"
-                    "<shape type='instance'><ref id='g'/><bsdf type='diffuse'/></shape>"),
-              "scene.xml:3:37: unexpected <bsdf> in shape 'instance'; allowed: shape");
-    EXPECT_EQ(error("<shape type='shapegroup'>\n<shape type='shapegroup'><shape type='cube'/></shape></shape>"),
-              "scene.xml:3:1: shape 'shapegroup' in a shapegroup: groups cannot be nested");
-    EXPECT_EQ(error("<shape type='shapegroup' id='a'><shape type='cube'/></shape>\n"
-                    "<shape type='shapegroup'>\n<shape type='instance'><ref id='a'/></shape></shape>"),
-              "scene.xml:4:1: shape 'instance' in a shapegroup: groups cannot be nested");
-    EXPECT_EQ(error("<shape type='shapegroup'><shape type='cube'>\n<emitter type='area'><float name='radiance' value='1'/>"
-                    "</emitter></shape></shape>"),
-              "scene.xml:3:1: emitter in a shapegroup: what emits cannot be instanced");
-    EXPECT_EQ(
-        error("<shape type='shapegroup'><shape type='teapot'/></shape>"),
-        "scene.xml:2:33: shape type 'teapot' is not supported; allowed: "
-        "bsplinecurve, cube, cylinder, disk, instance, linearcurve, merge, obj, ply, rectangle, serialized, shapegroup, sphere");
-    EXPECT_EQ(error("<shape type='shapegroup'><shape type='cube'><bsdf type='plush'/></shape></shape>").substr(0, 62),
-              "scene.xml:2:51: bsdf type 'plush' is not supported; allowed: b");
-    EXPECT_EQ(error(instance("\n<shape type='sphere'/>", "<scale x='2'/>")),
-              "scene.xml:5:1: to_world of shape 'instance' makes the sphere at scene.xml:3:1 another shape, which only meshes can "
-              "become; expected a uniform scale, rotations and translations");
-    EXPECT_EQ(error(instance("<shape type='cube'><transform name='to_world'><scale value='1e300'/></transform></shape>",
-                             "<scale value='1e300'/>")),
-              "scene.xml:4:1: to_world of shape 'instance' moves a shape out of the range of numbers");
-}
-
 // Copies of more than a million triangles stay instances of meshes that are in memory once.
 TEST_F(XmlInstances, ManyTrianglesAreShared) {
     constexpr int triangles = 100'000;

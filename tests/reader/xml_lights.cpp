@@ -47,8 +47,6 @@ TEST_F(XmlLights, Point) {
     EXPECT_EQ(arrives("point", "<point name='position' x='1' y='0' z='0'/><rgb name='intensity' value='4, 8, 12'/>", {1, 2, 0}),
               Rgb(1.0, 2.0, 3.0));
     EXPECT_EQ(arrives("point", "<transform name='to_world'><translate x='1'/></transform>", {1, 2, 0}), Rgb(0.25));
-    EXPECT_EQ(light_error("point", "<point name='position' value='1'/><transform name='to_world'/>"),
-              "scene.xml:3:24: both position and to_world are given, expected one of them");
 }
 
 TEST_F(XmlLights, Directional) {
@@ -60,7 +58,6 @@ TEST_F(XmlLights, Directional) {
     EXPECT_NEAR(glm::distance(from(quarter_turn), Vec3(-1, 0, 0)), 0.0, 1e-15);
     EXPECT_EQ(arrives("directional", "<float name='irradiance' value='3'/><float name='sampling_weight' value='2'/>", {1, 2, 3}),
               Rgb(3.0));
-    EXPECT_EQ(light_error("directional", "<vector name='direction' value='0'/>"), "scene.xml:3:26: the direction is zero");
 }
 
 TEST_F(XmlLights, Spot) {
@@ -83,16 +80,8 @@ TEST_F(XmlLights, Spot) {
         "<emitter type='spot'><ref name='texture' id='t'/></emitter>");
     EXPECT_NEAR(beam(parts.lights.delta.at(0), {0, 0, 1}, {}).irradiance.r, 1.5, 1e-12);
 
-    EXPECT_EQ(light_error("spot", "<float name='cutoff_angle' value='181'/>"),
-              "scene.xml:3:28: cutoff_angle is 181, expected more than 0 and at most 180 degrees");
     EXPECT_EQ(light_error("spot", std::string("<float name='cutoff_angle' value='90'/>") + slide),
               "scene.xml:3:28: cutoff_angle is 90, expected more than 0 and with a texture less than 90 degrees");
-    EXPECT_EQ(light_error("spot", "<float name='beam_width' value='21'/>"),
-              "scene.xml:3:26: beam_width is 21, expected at least 0 and at most cutoff_angle, 20 degrees");
-    EXPECT_EQ(light_error("spot", "<texture type='checkerboard' name='image'/>"),
-              "scene.xml:3:30: a <texture> of emitter 'spot' is named 'image', expected the name 'texture'");
-    EXPECT_EQ(light_error("spot", "<texture type='mesh_attribute' name='texture'><string name='name' value='vertex_c'/></texture>"),
-              "scene.xml:3:47: the mesh attribute 'vertex_c' is thrown by a light, which has no mesh");
     write_exr("negative.exr", 2, {1.0, -2.0});
     EXPECT_EQ(light_error("spot", "<texture type='bitmap' name='texture'><string name='filename' value='negative.exr'/></texture>"),
               "scene.xml:3:1: the texture is negative somewhere, down to -2, expected a texture of at least 0");
@@ -128,14 +117,6 @@ TEST_F(XmlLights, Projector) {
     const double half_width = std::sqrt(1872.0) / 100.0 * 2.0 / std::sqrt(5.0);
     EXPECT_NE(arrives("projector", picture, {0.999 * half_width, 0, 1}), Rgb(0.0));
     EXPECT_EQ(arrives("projector", picture, {1.001 * half_width, 0, 1}), Rgb(0.0));
-
-    EXPECT_EQ(light_error("projector", ""),
-              "scene.xml:2:1: emitter 'projector' lacks the parameter 'irradiance', expected rgb, spectrum, float or integer");
-    EXPECT_EQ(light_error("projector", "<rgb name='irradiance' value='2'/><float name='scale' value='-1'/>"),
-              "scene.xml:3:55: scale is -1, expected at least 0");
-    EXPECT_EQ(
-        light_error("projector", "<rgb name='irradiance' value='2'/><transform name='to_world'><scale value='2'/></transform>"),
-        "scene.xml:3:35: to_world of emitter 'projector' scales or shears, expected rotations and translations");
 }
 
 TEST_F(XmlLights, EnvironmentMap) {
@@ -152,9 +133,6 @@ TEST_F(XmlLights, EnvironmentMap) {
         15.0, 1e-12);
     EXPECT_NEAR(surrounds("envmap", file + quarter_turn, {-s, 0, -s}).r, 1.0, 1e-12);  // −z goes to −x
 
-    EXPECT_EQ(light_error("envmap", ""), "scene.xml:2:1: emitter 'envmap' lacks the parameter 'filename', expected string");
-    EXPECT_EQ(light_error("envmap", "<string name='filename' value='b.exr'/>"),
-              "scene.xml:3:25: there is no file 'b.exr'; looked in: .");
     write_exr("small.exr", 4, {1, 2, 3, 4, 5, 6, 7, 8});
     EXPECT_EQ(light_error("envmap", "<string name='filename' value='small.exr'/>"),
               "scene.xml:3:25: 'small.exr' is 4×2 pixels, expected at least 2×3");
@@ -237,32 +215,6 @@ TEST_F(XmlLights, ASunSkyIsConvertedAsItCame) {
     EXPECT_NE(xml.find("<integer name=\"hour\" value=\"9\" />"), std::string::npos) << xml;
 }
 
-TEST_F(XmlLights, MistakesInSunSky) {
-    EXPECT_EQ(light_error("sunsky", "<float name='turbidity' value='0.5'/>"),
-              "scene.xml:3:25: turbidity is 0.5, expected at least 1 and at most 10");
-    EXPECT_EQ(light_error("sunsky", "<rgb name='albedo' value='0.5, 1.5, 0'/>"),
-              "scene.xml:3:20: albedo is (0.5, 1.5, 0), expected at most 1 in each channel");
-    EXPECT_EQ(light_error("sunsky", "<vector name='sun_direction' value='0 0 1'/><float name='hour' value='9'/>"),
-              "scene.xml:3:30: both sun_direction and hour are given, expected the sun's direction, or a time and a place");
-    EXPECT_EQ(light_error("sunsky", "<vector name='sun_direction' value='0'/>"), "scene.xml:3:30: the direction is zero");
-    EXPECT_EQ(light_error("sunsky", "<float name='sun_scale' value='-1'/>"),
-              "scene.xml:3:25: sun_scale is -1, expected at least 0");
-    EXPECT_EQ(light_error("sunsky", "<float name='sky_scale' value='-1'/>"),
-              "scene.xml:3:25: sky_scale is -1, expected at least 0");
-    EXPECT_EQ(light_error("sunsky", "<float name='sun_aperture' value='0'/>"),
-              "scene.xml:3:28: sun_aperture is 0, expected more than 0 and less than 180 degrees");
-    EXPECT_EQ(light_error("sunsky", "<boolean name='complex_sun' value='true'/>"),
-              "scene.xml:3:29: complex_sun is true, expected false: the sun's disc has the same radiance everywhere");
-    EXPECT_EQ(light_error("sunsky", "<float name='latitude' value='91'/>"),
-              "scene.xml:3:24: latitude is 91, expected degrees from -90 to 90");
-    EXPECT_EQ(light_error("sunsky", "<integer name='month' value='2'/><integer name='day' value='30'/>"),
-              "scene.xml:3:54: there is no day 30 of month 2 of year 2010");
-    EXPECT_EQ(light_error("sunsky", "<integer name='month' value='13'/>"),
-              "scene.xml:2:1: there is no day 10 of month 13 of year 2010");
-    EXPECT_EQ(light_error("sunsky", "<transform name='to_world'><scale value='2'/></transform>"),
-              "scene.xml:3:1: to_world of emitter 'sunsky' scales or shears, expected rotations and translations");
-}
-
 // Bytes are decoded as sRGB unless they are raw; alpha does not count.
 TEST_F(XmlLights, BytesAreDecoded) {
     DisplayImage grey(4, 3, 188);
@@ -289,13 +241,6 @@ TEST_F(XmlLights, SeveralAndOneThatSurrounds) {
         "<float name='radiance' value='3'/></emitter><emitter type='directional'/><emitter type='constant'/>");
     EXPECT_EQ(parts.lights.delta.size(), 2u);
     EXPECT_EQ(parts.lights.area.size(), 1u);
-    EXPECT_EQ(error("<emitter type='constant'/>\n<emitter type='constant'/>"),
-              "scene.xml:3:1: a second light that surrounds the scene, expected only one; the first is at scene.xml:2:1");
-    EXPECT_EQ(error("<shape type='cube'>\n<emitter type='point'/></shape>"),
-              "scene.xml:3:10: emitter type 'point' is not supported; allowed: area, directionalarea");
-    EXPECT_EQ(
-        light_error("point", "<float name='radius' value='1'/>"),
-        "scene.xml:3:8: unknown parameter 'radius' of emitter 'point'; allowed: position, to_world, intensity, sampling_weight");
 }
 
 // On a shape, or referred to by several; what shines is the shape, so the element alone is no light.
@@ -316,13 +261,6 @@ TEST_F(XmlLights, DirectionalArea) {
     const Scene scene = make_scene(read("<shape type='disk'>" + red + "</shape>"));
     EXPECT_EQ(scene.emitters.sample_distant(0, {0.3, 0.2, 5}, {}).light, Rgb(3, 2, 1));
     EXPECT_EQ(scene.emitters.sample_distant(0, {0.9, 0.9, 5}, {}).light, Rgb(0.0));
-    for (const std::string shape : {"sphere", "cube", "cylinder"})
-        EXPECT_EQ(
-            error("<shape type='" + shape + "'>\n<emitter type='directionalarea'/></shape>"),
-            "scene.xml:3:1: emitter 'directionalarea' on a shape that is not flat; expected a rectangle, a disk or a mesh in one "
-            "plane");
-    EXPECT_EQ(error("<shape type='disk'>\n<emitter type='directionalarea'><transform name='to_world'/></emitter></shape>"),
-              "scene.xml:3:44: unknown parameter 'to_world' of emitter 'directionalarea'; allowed: radiance, sampling_weight");
 }
 
 }  // namespace neumann::xml_lights_test

@@ -53,19 +53,4 @@ TEST_F(XmlManyShapes, AllErrorsAreToldInTheOrderOfTheShapes) {
               "scene.xml:2:1: shape 'instance' has no shapegroup inside, expected one\n" + all);
 }
 
-// The meshes of a serialized file, by their number.
-TEST_F(XmlManyShapes, SerializedParameters) {
-    write("s", "no mesh");
-    const auto shape = [](const std::string& parameters) {
-        return "<shape type='serialized'><string name='filename' value='s'/>\n" + parameters + "</shape>";
-    };
-    EXPECT_EQ(error(shape("")), "s: byte 0: 0x6f6e where a serialized mesh begins, expected 0x041c");
-    EXPECT_EQ(error(shape("<integer name='shape_index' value='-1'/>")), "scene.xml:3:29: shape_index is -1, expected 0 or more");
-    EXPECT_EQ(
-        error("<shape type='obj'><string name='filename' value='s'/>\n<integer name='shape_index' value='1'/></shape>"),
-        "s:1:1: unsupported OBJ element 'no', expected v, vt, vn, f, l, p, g, o, s, mtllib or usemtl\n"
-        "scene.xml:3:10: unknown parameter 'shape_index' of shape 'obj'; allowed: to_world, filename, flip_normals, face_normals, "
-        "flip_tex_coords");
-}
-
 }  // namespace neumann::xml_many_shapes_test

@@ -171,10 +171,4 @@ TEST_F(XmlMaterials, ShapesAndMaterialsGoByTheirIds) {
     EXPECT_EQ(parts.origins.at(1).bsdf, "bsdf 'dielectric'");
 }
 
-TEST_F(XmlMaterials, SmoothOnesOfRoughOnes) {
-    for (const std::string type : {"conductor", "dielectric", "plastic"})
-        EXPECT_EQ(error("<bsdf type='rough" + type + "'>\n<float name='alpha' value='0'/></bsdf>"),
-                  "scene.xml:3:21: alpha is 0, expected at least 0.0001; bsdf '" + type + "' is smooth");
-}
-
 }  // namespace neumann::xml_materials_test

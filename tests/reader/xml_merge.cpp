@@ -37,19 +37,4 @@ TEST_F(XmlMerge, MayHoldReferencesAndInstances) {
     EXPECT_TRUE(std::holds_alternative<TriangleMesh>(parts.shapes[2]));
 }
 
-// A bsdf beside the shapes would have no effect in Mitsuba.
-TEST_F(XmlMerge, Messages) {
-    EXPECT_EQ(error("<shape type='merge'/>"), "scene.xml:2:1: shape 'merge' has no <shape> inside, expected at least one");
-    EXPECT_EQ(error("<shape type='merge'>\n<bsdf type='diffuse'/><shape type='cube'/></shape>"),
-              "scene.xml:3:1: unexpected <bsdf> in shape 'merge'; allowed: shape");
-    EXPECT_EQ(error("<shape type='merge'>\n<transform name='to_world'><translate x='1'/></transform><shape type='cube'/></shape>"),
-              "scene.xml:3:12: unknown parameter 'to_world' of shape 'merge'; it has none");
-    EXPECT_EQ(error("<shape type='merge'><shape type='merge'><shape type='cube'/></shape></shape>"),
-              "scene.xml:2:1: shape 'merge' stands inside another one");
-    EXPECT_EQ(error("<shape type='merge' id='m'><ref id='m'/></shape>"), "scene.xml:2:1: shape 'merge' stands inside another one");
-    EXPECT_EQ(error("<shape type='merge'>\n<shape type='sphere'><float name='radius' value='0'/></shape>"
-                    "\n<shape type='sphere'><float name='radius' value='-1'/></shape></shape>"),
-              "scene.xml:3:43: radius is 0, expected more than 0\nscene.xml:4:43: radius is -1, expected more than 0");
-}
-
 }  // namespace neumann::xml_merge_test

@@ -77,26 +77,6 @@ TEST_F(XmlOlderBsdfs, MixturesOfMany) {
     expect_near(eval(mixture, {}, slant, up) / inv_pi, Rgb(0.9, 0.45, 0.0), 1e-12);
 }
 
-TEST_F(XmlOlderBsdfs, MessagesOfMixtures) {
-    const auto message = [&](const std::string& weights, const std::string& inside) {
-        return error("<bsdf type='mixturebsdf'>\n" + weights + inside + "</bsdf>");
-    };
-    const std::string a = matt("1, 0, 0");
-    EXPECT_EQ(message("", a), "scene.xml:2:1: bsdf 'mixturebsdf' lacks the parameter 'weights', expected string");
-    EXPECT_EQ(message("<string name='weights' value='0.5 0.6'/>", a + a),
-              "scene.xml:3:24: the weights of bsdf 'mixturebsdf' add up to 1.1, expected at most 1");
-    EXPECT_EQ(message("<string name='weights' value='0.5 -0.25'/>", a + a),
-              "scene.xml:3:24: a weight of bsdf 'mixturebsdf' is -0.25, expected at least 0");
-    EXPECT_EQ(message("<string name='weights' value='half'/>", a), "scene.xml:3:24: 'half' is not a number");
-    EXPECT_EQ(message("<string name='weights' value='0.5, 0.25'/>", a),
-              "scene.xml:3:24: bsdf 'mixturebsdf' has 2 weights and 1 <bsdf> inside, expected as many");
-    EXPECT_EQ(message("<string name='weights' value='0.5'/>", ""),
-              "scene.xml:2:1: bsdf 'mixturebsdf' has no <bsdf> inside, expected one for each weight");
-    EXPECT_EQ(
-        error("<bsdf type='mixturebsdf' id='m'><string name='weights' value='1'/><ref id='m'/></bsdf>" + on_cube("<ref id='m'/>")),
-        "scene.xml:2:1: bsdf 'mixturebsdf' stands inside itself");
-}
-
 TEST_F(XmlOlderBsdfs, ManyInsideEachOther) {
     std::string chain = "<bsdf type='diffuse' id='b0'/>";
     for (int i = 1; i < 300; ++i)
@@ -187,25 +167,6 @@ TEST_F(XmlOlderBsdfs, Coatings) {
         front("<bsdf type='coating'><rgb name='specular_reflectance' value='0, 0.5, 1'/><bsdf type='conductor'/></bsdf>");
     EXPECT_EQ(largest_albedo(tinted), Rgb(1.0));
     EXPECT_NEAR(sample(tinted, {}, up, Vec2(0.0)).weight.g / sample(tinted, {}, up, Vec2(0.0)).weight.b, 0.5, 1e-14);
-}
-
-TEST_F(XmlOlderBsdfs, Messages) {
-    EXPECT_EQ(error("<bsdf type='phong'>\n<float name='exponent' value='-1'/></bsdf>"),
-              "scene.xml:3:24: exponent is -1, expected at least 0");
-    EXPECT_EQ(error("<bsdf type='ward'>\n<float name='alpha_u' value='0'/></bsdf>"),
-              "scene.xml:3:23: alpha_u is 0, expected at least 0.0001");
-    EXPECT_EQ(error("<bsdf type='ward'>\n<string name='variant' value='duer'/></bsdf>"),
-              "scene.xml:3:24: variant is 'duer'; allowed: ward, ward-duer, balanced");
-    EXPECT_EQ(error("<bsdf type='ward'>\n<float name='alpha' value='0.1'/></bsdf>"),
-              "scene.xml:3:8: unknown parameter 'alpha' of bsdf 'ward'; allowed: variant, alpha_u, alpha_v, diffuse_reflectance, "
-              "specular_reflectance, specular_sampling_weight, ensure_energy_conservation");
-    EXPECT_EQ(error("<bsdf type='coating'/>"), "scene.xml:2:1: bsdf 'coating' has no <bsdf> inside, expected one");
-    EXPECT_EQ(error("<bsdf type='coating'>\n<bsdf type='dielectric'/></bsdf>"),
-              "scene.xml:3:1: bsdf 'dielectric' in bsdf 'coating' lets light through, expected one that only reflects");
-    EXPECT_EQ(error("<bsdf type='coating'>\n<float name='thickness' value='-1'/><bsdf type='diffuse'/></bsdf>"),
-              "scene.xml:3:25: thickness is -1, expected at least 0");
-    EXPECT_EQ(error("<bsdf type='coating'>\n<rgb name='sigma_a' value='-1'/><bsdf type='diffuse'/></bsdf>"),
-              "scene.xml:3:21: sigma_a is negative: '-1'");
 }
 
 }  // namespace neumann::xml_older_bsdfs_test

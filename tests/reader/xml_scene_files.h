@@ -3,6 +3,7 @@
 
 #include "core/reader/read_scene.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 
@@ -16,7 +17,9 @@ class XmlTest : public ::testing::Test {
 protected:
     XmlTest() {
         const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
-        folder_ = std::filesystem::path(::testing::TempDir()) / (std::string(info->test_suite_name()) + "." + info->name());
+        std::string name = std::string(info->test_suite_name()) + "." + info->name();
+        std::ranges::replace(name, '/', '.');
+        folder_ = std::filesystem::path(::testing::TempDir()) / name;
         std::filesystem::remove_all(folder_);
         std::filesystem::create_directories(folder_);
     }

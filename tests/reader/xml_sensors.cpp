@@ -167,26 +167,6 @@ TEST_F(XmlSensors, RadianceMeters) {
     }
 }
 
-TEST_F(XmlSensors, MessagesOfRadianceMeters) {
-    const auto message = [&](const std::string& inside, const std::string& film) {
-        return file_error("<scene version='3.0.0'><sensor type='radiancemeter'>\n" + inside + film + "</sensor></scene>");
-    };
-    const std::string& film = small_film;
-    EXPECT_EQ(message("", ""), "scene.xml:1:24: the film of sensor 'radiancemeter' has 768×576 pixels, expected 1×1");
-    EXPECT_EQ(message("", "<film type='hdrfilm'><integer name='width' value='1'/></film>"),
-              "scene.xml:2:1: the film of sensor 'radiancemeter' has 1×576 pixels, expected 1×1");
-    EXPECT_EQ(message("<point name='origin' x='1' y='2' z='3'/>", film),
-              "scene.xml:2:1: origin is given without direction, expected both, or to_world");
-    EXPECT_EQ(message("<point name='origin' x='1' y='2' z='3'/>\n<vector name='direction' x='0' y='0' z='0'/>", film),
-              "scene.xml:3:1: the direction is zero");
-    EXPECT_EQ(message("<transform name='to_world'><translate x='1'/></transform><point name='origin' x='1' y='2' z='3'/>\n"
-                      "<vector name='direction' x='0' y='0' z='1'/>",
-                      film),
-              "scene.xml:3:1: both direction and to_world are given, expected one of them");
-    EXPECT_EQ(message("<float name='fov' value='40'/>", film),
-              "scene.xml:2:8: unknown parameter 'fov' of sensor 'radiancemeter'; allowed: to_world, origin, direction");
-}
-
 // A child of a shape, or referred to by it.
 TEST_F(XmlSensors, IrradianceMeters) {
     const std::string other = "<shape type='sphere'/>\n",
@@ -201,34 +181,6 @@ TEST_F(XmlSensors, IrradianceMeters) {
     const Scene scene =
         make_scene(read_file("<scene version='3.0.0'>" + other + "<shape type='disk'>" + meter + "</shape></scene>"));
     EXPECT_TRUE(std::holds_alternative<BoxFilter>(scene.film.filter));
-}
-
-TEST_F(XmlSensors, MessagesOfIrradianceMeters) {
-    const auto message = [&](const std::string& inside) { return file_error("<scene version='3.0.0'>\n" + inside + "</scene>"); };
-    const std::string meter = "<sensor type='irradiancemeter'/>";
-    EXPECT_EQ(message(meter),
-              "scene.xml:2:1: sensor 'irradiancemeter' stands in no shape of the scene, expected the one on which it measures");
-    EXPECT_EQ(message("<shape type='disk'>" + meter + "</shape>\n<shape type='disk'>" + meter + "</shape>"),
-              "scene.xml:3:20: a second <sensor>, expected only one; the first is at scene.xml:2:20");
-    EXPECT_EQ(message("<shape type='disk'>" + meter + "</shape>\n<sensor type='perspective'/>"),
-              "scene.xml:2:20: a second <sensor>, expected only one; the first is at scene.xml:3:1");
-    EXPECT_EQ(
-        message("<shape type='disk'><ref id='m'/></shape><shape type='disk'><ref id='m'/></shape>\n<sensor type='irradiancemeter' "
-                "id='m'/>"),
-        "scene.xml:3:1: sensor 'irradiancemeter' stands in several shapes of the scene, expected the one on which it measures");
-    EXPECT_EQ(message("<shape type='disk'><sensor type='batch'/></shape>"),
-              "scene.xml:2:20: sensor 'batch' stands in a shape, expected 'irradiancemeter' there");
-    EXPECT_EQ(message("<shape type='disk'><sensor type='thinlens'/></shape>"),
-              "scene.xml:2:20: sensor 'thinlens' stands in a shape, expected 'irradiancemeter' there");
-    EXPECT_EQ(message("<shape type='disk'><sensor type='irradiancemeter'>\n<transform name='to_world'/></sensor></shape>"),
-              "scene.xml:3:12: unknown parameter 'to_world' of sensor 'irradiancemeter'; it has none");
-    EXPECT_EQ(message("<shape type='disk'><sensor type='irradiancemeter'>\n<spectrum name='srf' value='1'/></sensor></shape>"),
-              "scene.xml:3:11: unknown parameter 'srf' of sensor 'irradiancemeter'; it has none");
-    EXPECT_EQ(message("<shape type='shapegroup'><shape type='disk'>\n" + meter + "</shape></shape><sensor type='perspective'/>"),
-              "scene.xml:3:1: sensor in a shapegroup: what measures cannot be instanced");
-    // Of a shape that cannot be read, nothing more is said.
-    EXPECT_EQ(message("<shape type='disk'>\n<float name='size' value='1'/>" + meter + "</shape>"),
-              "scene.xml:3:8: unknown parameter 'size' of shape 'disk'; allowed: flip_normals, to_world");
 }
 
 TEST_F(XmlSensors, DistantSensors) {
@@ -250,22 +202,6 @@ TEST_F(XmlSensors, DistantSensors) {
     // A shape that only the sensor has is not in the scene.
     EXPECT_TRUE(
         read_file("<scene version='3.0.0'><sensor type='distant'>" + ball + small_film + "</sensor></scene>").shapes.empty());
-}
-
-TEST_F(XmlSensors, MessagesOfDistantSensors) {
-    const auto message = [&](const std::string& inside, const std::string& film = small_film) {
-        return file_error("<scene version='3.0.0'><sensor type='distant'>\n" + inside + film + "</sensor></scene>");
-    };
-    EXPECT_EQ(message("", ""), "scene.xml:1:24: the film of sensor 'distant' has 768×576 pixels, expected 1×1");
-    EXPECT_EQ(message("<vector name='direction' value='0'/>"), "scene.xml:2:26: the direction is zero");
-    EXPECT_EQ(message("<vector name='direction' x='1' y='0' z='0'/><transform name='to_world'/>"),
-              "scene.xml:2:1: both direction and to_world are given, expected one of them");
-    EXPECT_EQ(message("<shape type='merge' name='target'><shape type='disk'/></shape>"),
-              "scene.xml:1:24: the target is a shape 'merge', expected a single shape or a point");
-    EXPECT_EQ(message("<float name='target' value='1'/>"),
-              "scene.xml:2:1: parameter 'target' of sensor 'distant' is a float, expected point or vector");
-    EXPECT_EQ(message("<float name='ray_offset' value='1'/>"),
-              "scene.xml:2:8: unknown parameter 'ray_offset' of sensor 'distant'; allowed: to_world, direction, target");
 }
 
 TEST_F(XmlSensors, Batches) {
@@ -303,30 +239,6 @@ TEST_F(XmlSensors, AreConverted) {
         ASSERT_EQ(parts->lights.area.size(), 1u);
         EXPECT_TRUE(parts->lights.area[0].along_normal);
     }
-}
-
-TEST_F(XmlSensors, MessagesOfBatches) {
-    const auto message = [&](const std::string& inside, const std::string& film = "<film type='hdrfilm'/>") {
-        return file_error("<scene version='3.0.0'><shape type='disk' id='disk'/><sensor type='batch'>\n" + inside + "\n" + film +
-                          "</sensor></scene>");
-    };
-    const std::string eye = "<sensor type='perspective'/>";
-    EXPECT_EQ(message(""), "scene.xml:1:54: sensor 'batch' has no <sensor> inside, expected at least one");
-    EXPECT_EQ(message(eye + eye, "<film type='hdrfilm'><integer name='width' value='11'/></film>"),
-              "scene.xml:3:1: the film of sensor 'batch' is 11 pixels wide, expected a multiple of 2, the number of its sensors");
-    EXPECT_EQ(message(eye + "<sensor type='perspective'>\n<float name='fov' value='190'/></sensor>",
-                      "<film type='hdrfilm'><integer name='width' value='11'/></film>"),
-              "scene.xml:3:19: fov is 190, expected more than 0 and less than 180 degrees");
-    EXPECT_EQ(message("<sensor type='batch'>" + eye + "</sensor>"), "scene.xml:2:1: sensor 'batch' stands inside another one");
-    EXPECT_EQ(message("<ref id='disk'/>"),
-              "scene.xml:1:54: the shape at scene.xml:1:24 in sensor 'batch' has no sensor or is not in the scene, expected a "
-              "reference to one with an 'irradiancemeter'");
-    EXPECT_EQ(
-        message("<sensor type='distant'/>"),
-        "scene.xml:3:1: the film of a sensor 'batch' with an 'irradiancemeter' or 'distant' inside has another filter than 'box', "
-        "expected that");
-    EXPECT_EQ(message("<sensor type='irradiancemeter'/>"),
-              "scene.xml:2:1: sensor 'irradiancemeter' stands in no shape of the scene, expected the one on which it measures");
 }
 
 TEST_F(XmlSensors, Integrators) {

@@ -11,9 +11,6 @@ protected:
     Rgb reflectance(const std::string& spectrum) const {
         return largest_albedo(read("<shape type='cube'><bsdf type='diffuse'>" + spectrum + "</bsdf></shape>").bsdfs.at(0));
     }
-    std::string radiance_error(const std::string& spectrum) const {
-        return error("<shape type='cube'><emitter type='area'>\n" + spectrum + "</emitter></shape>");
-    }
     static std::string object(const std::string& type, const std::string& inside) {
         return "<spectrum name='radiance' type='" + type + "'>" + inside + "</spectrum>";
     }
@@ -29,22 +26,6 @@ TEST_F(XmlSpectra, Files) {
     const std::string before = read(body).hash;
     write("lamps/lamp.spd", "400 0\n700 18");
     EXPECT_NE(read(body).hash, before);
-}
-
-TEST_F(XmlSpectra, FilesThatAreWrong) {
-    const auto file_error = [&](const std::string& text) {
-        write("a.spd", text);
-        return radiance_error("<spectrum name='radiance' filename='a.spd'/>");
-    };
-    EXPECT_EQ(file_error("400 1\n 500 2 3\n"), "a.spd:2:2: the line has 3 numbers, expected a wavelength and a value");
-    EXPECT_EQ(file_error("400 1\n500\n"), "a.spd:2:1: the line has 1 numbers, expected a wavelength and a value");
-    EXPECT_EQ(file_error("400 1\n500 x\n"), "a.spd:2:1: 'x' is not a number");
-    EXPECT_EQ(file_error("400 1\n#\n400 2\n"), "a.spd:3:1: the wavelength 400 follows 400, expected increasing ones");
-    EXPECT_EQ(file_error("400 1\n500 -2\n"), "scene.xml:3:27: radiance is negative at 500 nm: -2");
-    EXPECT_EQ(file_error("400 1\n"), "scene.xml:3:27: found 1 of the at least 2 pairs wavelength:value of a spectrum");
-    EXPECT_EQ(file_error("# nothing\n"), "scene.xml:3:27: '' is not a number");
-    EXPECT_EQ(radiance_error("<spectrum name='radiance' filename='none.spd'/>"),
-              "scene.xml:3:27: there is no file 'none.spd'; looked in: .");
 }
 
 // A radiance that is the same at all wavelengths has X = Y = Z, which is the sum of the matrix' rows and not white; numbers and rgb
@@ -88,35 +69,6 @@ TEST_F(XmlSpectra, BlackBodies) {
     const Rgb part =
         radiance(object("blackbody", "<float name='temperature' value='2856'/><float name='wavelength_min' value='600'/>"));
     EXPECT_LT(part.g, warm.g);
-}
-
-TEST_F(XmlSpectra, Errors) {
-    EXPECT_EQ(radiance_error(object("blackbody", "")),
-              "scene.xml:3:1: spectrum 'blackbody' lacks the parameter 'temperature', expected float or integer");
-    EXPECT_EQ(radiance_error(object("blackbody", "<float name='temperature' value='0'/>")),
-              "scene.xml:3:70: temperature is 0, expected more than 0");
-    EXPECT_EQ(
-        radiance_error(object("blackbody", "<float name='temperature' value='9'/><float name='wavelength_min' value='900'/>")),
-        "scene.xml:3:110: wavelength_max is 830, expected more than wavelength_min, 900");
-    EXPECT_EQ(
-        radiance_error(object("blackbody", "<float name='temperature' value='9'/><float name='kelvin' value='9'/>")),
-        "scene.xml:3:88: unknown parameter 'kelvin' of spectrum 'blackbody'; allowed: temperature, wavelength_min, wavelength_max");
-    EXPECT_EQ(error("<bsdf type='diffuse'>\n<spectrum name='reflectance' type='blackbody'><float name='temperature' "
-                    "value='5000'/></spectrum></bsdf>"),
-              "scene.xml:3:1: reflectance is a spectrum 'blackbody', which is for what gives off light");
-    EXPECT_EQ(radiance_error(object("measured", "")),
-              "scene.xml:3:27: spectrum type 'measured' is not supported; allowed: blackbody, d65, irregular, regular, uniform");
-    EXPECT_EQ(radiance_error(object("irregular", "<string name='wavelengths' value='1 2'/><string name='values' value='1'/>")),
-              "scene.xml:3:106: values has 1 numbers, expected 2, as wavelengths has");
-    EXPECT_EQ(radiance_error(object("regular", "<string name='values' value='1'/>")),
-              "scene.xml:3:64: values has 1 numbers, expected at least 2");
-    EXPECT_EQ(radiance_error("<spectrum name='radiance'/>"), "scene.xml:3:1: <spectrum> lacks the attribute 'value'");
-    EXPECT_EQ(radiance_error("<spectrum name='radiance' filename='a.spd' value='1'/>"),
-              "scene.xml:3:44: <spectrum> has both 'filename' and 'value', expected one of them");
-    EXPECT_EQ(radiance_error("<spectrum name='radiance' type='uniform' value='1'/>"),
-              "scene.xml:3:42: <spectrum> has both 'type' and 'value', expected one of them");
-    EXPECT_EQ(radiance_error("<spectrum name='radiance' value='1'>\n<float name='value' value='1'/></spectrum>"),
-              "scene.xml:4:1: <float> is not supported in <spectrum> without 'type'");
 }
 
 TEST_F(XmlSpectra, Colours) {

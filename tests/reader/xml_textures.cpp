@@ -179,14 +179,6 @@ TEST_F(XmlTextures, RawConstants) {
                    "<vector name='value' x='0.5' y='-0.1' z='1'/></texture><bsdf type='diffuse'/></bsdf></shape>")
                   .bsdfs.size(),
               2u);
-    EXPECT_EQ(texture_error("rawconstant", ""),
-              "scene.xml:3:1: texture 'rawconstant' lacks the parameter 'value', expected float, integer or vector");
-    EXPECT_EQ(texture_error("rawconstant", "<rgb name='value' value='1'/>"),
-              "scene.xml:4:1: parameter 'value' of texture 'rawconstant' is an rgb, expected float, integer or vector");
-    EXPECT_EQ(texture_error("rawconstant", "<vector name='value' value='1, -1, 0'/>"),
-              "scene.xml:3:1: the texture is negative somewhere, down to -1, expected a reflectance of at least 0");
-    EXPECT_EQ(error("<bsdf type='roughconductor'>\n<texture name='alpha' " + vector + "</bsdf>"),
-              "scene.xml:3:63: texture 'rawconstant' has three numbers, expected one");
 }
 
 // Mitsuba takes a colour for a number as the mean of its channels.
@@ -257,13 +249,6 @@ TEST_F(XmlTextures, Scaled) {
 }
 
 TEST_F(XmlTextures, ScaledErrors) {
-    EXPECT_EQ(texture_error("scale", ""), "scene.xml:3:1: texture 'scale' has no <texture> inside, expected one");
-    EXPECT_EQ(texture_error("scale", "<float name='scale' value='-1'/><texture type='checkerboard'/>"),
-              "scene.xml:4:21: scale is negative: '-1'");
-    EXPECT_EQ(texture_error("scale",
-                            "<float name='scale' value='1e200'/><texture type='scale'><float name='scale' value='1e200'/>"
-                            "<texture type='checkerboard'/></texture>"),
-              "scene.xml:4:21: scale of texture 'scale' gives numbers out of range");
     std::string chain = "<texture type='checkerboard' id='t0'/>";
     for (int i = 1; i < 300; ++i)
         chain += "\n<texture type='scale' id='t" + std::to_string(i) + "'><ref id='t" + std::to_string(i - 1) + "'/></texture>";
@@ -312,12 +297,6 @@ TEST_F(XmlTextures, NormalAndBumpMaps) {
 
 TEST_F(XmlTextures, Errors) {
     const std::string file = "<string name='filename' value='four.png'/>";
-    EXPECT_EQ(
-        texture_error("wood", ""),
-        "scene.xml:3:29: texture type 'wood' is not supported; allowed: bitmap, checkerboard, mesh_attribute, rawconstant, scale");
-    EXPECT_EQ(texture_error("bitmap", "<string name='filename' value='none.png'/>"),
-              "scene.xml:4:25: there is no file 'none.png'; looked in: .");
-    EXPECT_EQ(texture_error("bitmap", ""), "scene.xml:3:1: texture 'bitmap' lacks the parameter 'filename', expected string");
     EXPECT_EQ(texture_error("bitmap", file + "<string name='filter_type' value='cubic'/>"),
               "scene.xml:4:70: filter_type is 'cubic'; allowed: bilinear, nearest");
     EXPECT_EQ(texture_error("bitmap", file + "<string name='wrap_mode' value='black'/>"),
@@ -325,49 +304,16 @@ TEST_F(XmlTextures, Errors) {
     EXPECT_EQ(texture_error("bitmap", file + "<float name='gamma' value='1'/>"),
               "scene.xml:4:50: unknown parameter 'gamma' of texture 'bitmap'; allowed: filename, filter_type, wrap_mode, raw, "
               "to_uv, format, accel");
-    write("text.png", "this is no picture\n");
-    EXPECT_EQ(texture_error("bitmap", "<string name='filename' value='text.png'/>"),
-              "text.png: not a picture that can be read, expected OpenEXR, PNG, JPEG, TIFF, Radiance HDR, PNM, PFM, BMP or TGA");
     EXPECT_EQ(texture_error("bitmap", "<string name='filename' value='nan.exr'/>"),
               "nan.exr: the pixel in column 0 and row 0 is not finite");
     EXPECT_EQ(texture_error("bitmap", "<string name='filename' value='negative.exr'/>"),
               "scene.xml:3:1: the texture is negative somewhere, down to -0.5, expected a reflectance of at least 0");
-    EXPECT_EQ(texture_error("checkerboard", "<float name='color2' value='1'/>"),
-              "scene.xml:4:8: unknown parameter 'color2' of texture 'checkerboard'; allowed: color0, color1, to_uv; did you mean "
-              "'color0'?");
-    EXPECT_EQ(error("<texture type='checkerboard' id='a'>\n<ref name='color0' id='a'/></texture>"),
-              "scene.xml:2:1: the texture stands inside itself");
-    EXPECT_EQ(
-        error("<bsdf type='diffuse'>\n<texture name='reflectanse' type='checkerboard'/></bsdf>"),
-        "scene.xml:3:10: unknown parameter 'reflectanse' of bsdf 'diffuse'; allowed: reflectance; did you mean 'reflectance'?");
-    EXPECT_EQ(error("<bsdf type='diffuse'>\n<float name='reflectance' value='1'/>\n"
-                    "<texture name='reflectance' type='checkerboard'/></bsdf>"),
-              "scene.xml:4:10: parameter 'reflectance' of bsdf 'diffuse' is given twice, first at scene.xml:3:8");
-    EXPECT_EQ(error("<bsdf type='conductor'>\n<texture name='eta' type='checkerboard'/></bsdf>"),
-              "scene.xml:3:10: parameter 'eta' of bsdf 'conductor' is a texture, which is not supported there");
-}
-
-TEST_F(XmlTextures, MeshAttributeErrors) {
-    write_colours();
-    EXPECT_EQ(texture_error("mesh_attribute", "<string name='name' value='color'/>"),
-              "scene.xml:4:21: 'color' is not the name of a mesh attribute, expected vertex_ or face_ and what follows");
-    EXPECT_EQ(error(coloured("vertex_heat")), "scene.xml:3:71: shape 'ply' at scene.xml:2:1 has no mesh attribute 'vertex_heat'");
-    EXPECT_EQ(error("<texture id='a' type='mesh_attribute'><string name='name' value='face_color'/></texture>\n"
-                    "<shape type='sphere'><bsdf type='twosided'><bsdf type='diffuse'><ref name='reflectance' "
-                    "id='a'/></bsdf></bsdf></shape>"),
-              "scene.xml:2:59: shape 'sphere' at scene.xml:3:1 has no mesh attribute 'face_color'");
 }
 
 TEST_F(XmlTextures, NormalAndBumpMapErrors) {
     const std::string map = "<texture type='bitmap' name='normalmap'><string name='filename' value='four.png'/></texture>";
-    EXPECT_EQ(error("<bsdf type='normalmap'><bsdf type='diffuse'/></bsdf>"),
-              "scene.xml:2:1: bsdf 'normalmap' lacks the parameter 'normalmap', expected a texture");
     EXPECT_EQ(error("<bsdf type='normalmap'>" + map + "</bsdf>"),
               "scene.xml:2:1: bsdf 'normalmap' has no <bsdf> inside, expected one");
-    EXPECT_EQ(error("<bsdf type='bumpmap'><bsdf type='diffuse'/></bsdf>"),
-              "scene.xml:2:1: bsdf 'bumpmap' has no <texture> inside, expected one");
-    EXPECT_EQ(error("<bsdf type='bumpmap'><texture type='checkerboard'/><bsdf type='diffuse'/></bsdf>"),
-              "scene.xml:2:31: texture 'checkerboard' has no slopes for bsdf 'bumpmap'; allowed: bitmap");
     EXPECT_EQ(error("<bsdf type='normalmap' id='a'>" + map + "<ref id='a'/></bsdf>"),
               "scene.xml:2:1: bsdf 'normalmap' stands inside itself");
     EXPECT_EQ(error("<bsdf type='normalmap'>" + map + "<float name='scale' value='2'/><bsdf type='diffuse'/></bsdf>"),
