@@ -28,9 +28,6 @@ TEST_F(PbrtLights, AreaLights) {
     // The power of a sphere of radius 1 is π A L.
     expect_same("AreaLightSource \"diffuse\" \"rgb L\" [1 0.5 0.5] \"float power\" 100" + sphere,
                 lamp(rgb("radiance", 100 / (4 * pi * pi), 50 / (4 * pi * pi), 50 / (4 * pi * pi))));
-    EXPECT_EQ(pbrt_error("AreaLightSource \"diffuse\" \"float scale\" -1\nShape \"sphere\""),
-              "scene.pbrt:3:27: scale of area light 'diffuse' is -1, expected at least 0");
-    EXPECT_EQ(pbrt_error("AreaLightSource \"area\""), "scene.pbrt:3:1: area light type 'area' is not supported; allowed: diffuse");
     // AttributeEnd ends it.
     EXPECT_EQ(read_pbrt("AttributeBegin AreaLightSource \"diffuse\" AttributeEnd Shape \"sphere\"").lights.of_shape.at(0),
               Emitters::none);
@@ -76,8 +73,6 @@ TEST_F(PbrtLights, LightsOfTwoSides) {
             EXPECT_EQ(scene.emitters.emitted(hit, -towards), Rgb(1.0)) << side;
         }
     }
-    EXPECT_EQ(pbrt_error("AreaLightSource \"diffuse\" \"bool twosided\" true\nShape \"cylinder\""),
-              "scene.pbrt:4:1: an area light that shines from both sides is on a cylinder, expected a flat shape or a sphere");
 }
 
 TEST_F(PbrtLights, PicturesOnLights) {
@@ -122,10 +117,6 @@ TEST_F(PbrtLights, PointLights) {
         const auto beam = std::visit([&](const auto& light) { return light.beam(at, {}); }, spot.lights.delta.at(0));
         EXPECT_NEAR(beam.irradiance.g, x * x * (3.0 - 2.0 * x) / 4.0, 1e-14) << degrees;
     }
-    EXPECT_EQ(pbrt_error("LightSource \"spot\" \"float conedeltaangle\" 31"),
-              "scene.pbrt:3:20: conedeltaangle of light 'spot' is 31, expected from 0 to coneangle, 30 degrees");
-    EXPECT_EQ(pbrt_error("LightSource \"distant\" \"point3 to\" [0 0 0]"),
-              "scene.pbrt:3:23: from and to of light 'distant' are the same point");
 }
 
 TEST_F(PbrtLights, Colours) {
@@ -144,11 +135,6 @@ TEST_F(PbrtLights, Colours) {
         EXPECT_NEAR(luminance(radiance(colour)), 1.0, 1e-4) << colour;
     // Illuminant A is Planck's at 2848 K by today's constants to about 10 K.
     expect_near(radiance("\"blackbody L\" 2856"), radiance("\"spectrum L\" \"stdillum-A\""), 5e-3, "illuminant A");
-    EXPECT_EQ(pbrt_error("LightSource \"infinite\" \"blackbody L\" 0"),
-              "scene.pbrt:3:24: L of light 'infinite' is 0 K, expected from 100 to 1000000");
-    EXPECT_EQ(
-        pbrt_error("LightSource \"infinite\" \"spectrum L\" \"stdillum-D66\""),
-        "scene.pbrt:3:24: the spectrum 'stdillum-D66' of L of light 'infinite' is not known here; did you mean 'stdillum-D65'?");
 }
 
 // ISO and the time that the shutter is open multiply what the film sees; here the lights are as much brighter.
@@ -200,13 +186,6 @@ TEST_F(PbrtLights, OctahedralPictures) {
     const auto turned_at = [&](const Vec3& w) { return radiance(*turned.lights.environment, glm::normalize(w)); };
     expect_near(turned_at({1, 0.2, 1}), Rgb(1, 0, 0), 1e-6, "−x −y, which is now +x +z");
     expect_near(turned_at({1, 0.2, -1}), Rgb(0, 0, 1), 1e-6, "−x +y, which is now +x −z");
-    write("wide.ppm", "P3 2 1 255\n0 0 0 1 1 1\n");
-    EXPECT_EQ(pbrt_error("LightSource \"infinite\" \"string filename\" \"wide.ppm\""),
-              "scene.pbrt:3:24: 'wide.ppm' is 2×1 pixels, expected a square: pbrt-v4 has equal-area octahedral pictures, which its "
-              "'imgtool "
-              "makeequiarea' makes of others");
-    EXPECT_EQ(pbrt_error("LightSource \"infinite\" \"point3 portal\" [0 0 0 1 0 0 1 1 0 0 1 0]"),
-              "scene.pbrt:3:24: portal of light 'infinite' is not supported: pbrt has no light from beside it");
 }
 
 // Six projectors, of which each direction gets light from one. In pbrt the picture's middle is +y, and its y axis is +z.
@@ -246,15 +225,6 @@ TEST_F(PbrtLights, Goniometric) {
     const SceneParts given = read_pbrt(
         "LightSource \"goniometric\" \"string filename\" \"lamp.ppm\" \"rgb I\" [1 1 1] \"float power\" 5 \"float scale\" 1");
     EXPECT_NEAR(power(given), 5.0, 5e-3);
-
-    EXPECT_EQ(pbrt_error("LightSource \"goniometric\""),
-              "scene.pbrt:3:1: light 'goniometric' has no filename, expected a picture of its directions");
-    write("wide.ppm", "P3 2 1 255\n0 0 0 1 1 1\n");
-    EXPECT_EQ(pbrt_error("LightSource \"goniometric\" \"string filename\" \"wide.ppm\"").substr(0, 60),
-              "scene.pbrt:3:27: 'wide.ppm' is 2×1 pixels, expected a squar");
-    write("black.ppm", "P3 1 1 255\n0 0 0\n");
-    EXPECT_EQ(pbrt_error("LightSource \"goniometric\" \"string filename\" \"black.ppm\" \"float power\" 5"),
-              "scene.pbrt:3:27: 'black.ppm' has no light");
 }
 
 }  // namespace neumann::pbrt_lights_test

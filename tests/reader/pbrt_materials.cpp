@@ -54,16 +54,6 @@ TEST_F(PbrtMaterials, Diffuse) {
     expect_same_material(
         "MakeNamedMaterial \"a wall\" \"string type\" \"diffuse\" \"rgb reflectance\" [1 0 0]\nNamedMaterial \"a wall\"",
         two_sided("diffuse", "<rgb name='reflectance' value='1, 0, 0'/>"));
-    EXPECT_EQ(pbrt_error("Material \"diffuse\" \"spectrum reflectance\" [400 0.1 300 0.5]"),
-              "scene.pbrt:3:20: the wavelength 300 of reflectance of material 'diffuse' follows 400, expected increasing ones");
-    EXPECT_EQ(pbrt_error("Material \"diffuse\" \"spectrum reflectance\" \"nosuch\""),
-              "scene.pbrt:3:20: the spectrum 'nosuch' of reflectance of material 'diffuse' is not known here");
-    EXPECT_EQ(pbrt_error("Material \"diffuse\" \"rgb reflectance\" [-1 0 0]"),
-              "scene.pbrt:3:20: reflectance of material 'diffuse' is negative: (-1, 0, 0)");
-    EXPECT_EQ(
-        pbrt_error("Material \"hair\""),
-        "scene.pbrt:3:1: material type 'hair' is not supported; allowed: coatedconductor, coateddiffuse, conductor, dielectric, "
-        "diffuse, diffusetransmission, interface, mix, thindielectric");
 }
 
 TEST_F(PbrtMaterials, Conductors) {
@@ -97,10 +87,6 @@ TEST_F(PbrtMaterials, Conductors) {
     EXPECT_GT(c.g, c.b + 0.2);
     EXPECT_EQ(warning(read_pbrt("Material \"conductor\" \"float roughness\" 0.09")),
               "rough material: its masking is separable (G1 · G1), where pbrt's is height-correlated");
-    EXPECT_EQ(pbrt_error("Material \"conductor\" \"rgb reflectance\" [1 1 1] \"spectrum eta\" \"metal-Au-eta\""),
-              "scene.pbrt:3:22: material 'conductor' has a reflectance and eta or k, expected either");
-    EXPECT_EQ(pbrt_error("Material \"conductor\" \"float roughness\" -1"),
-              "scene.pbrt:3:22: roughness of material 'conductor' is negative: -1");
 }
 
 TEST_F(PbrtMaterials, Glass) {
@@ -115,8 +101,6 @@ TEST_F(PbrtMaterials, Glass) {
     expect_same_material("Material \"thindielectric\" \"float eta\" 1.4", "<bsdf type='thindielectric'>" + iors(1.4) + "</bsdf>");
     EXPECT_EQ(warning(read_pbrt("Material \"dielectric\" \"spectrum eta\" \"glass-F11\"")),
               "glass refracts all colours alike, as yellow light (587.6 nm): dispersion is left out");
-    EXPECT_EQ(pbrt_error("Material \"dielectric\" \"float eta\" 0"),
-              "scene.pbrt:3:23: eta of material 'dielectric' is 0, expected more than 0");
 }
 
 TEST_F(PbrtMaterials, Layers) {
@@ -141,14 +125,8 @@ TEST_F(PbrtMaterials, Layers) {
         const double wanted = eval(front(*like), {}, wo, wi).g;
         EXPECT_NEAR(eval(front(varies), point_with_coordinates(uv), wo, wi).g, wanted, 1e-9 * wanted) << uv.x;
     }
-    EXPECT_EQ(pbrt_error("Material \"coateddiffuse\" \"float uroughness\" 0.1 \"float vroughness\" 0.2"),
-              "scene.pbrt:3:49: vroughness of material 'coateddiffuse' is not uroughness, which is not supported: its coat is "
-              "alike in all "
-              "directions");
     EXPECT_EQ(warning(read_pbrt("Material \"coateddiffuse\"")),
               "coateddiffuse: taken as 'plastic' or 'roughplastic', whose layer absorbs nothing");
-    EXPECT_EQ(pbrt_error("Material \"coateddiffuse\" \"rgb albedo\" [0.5 0.5 0.5]"),
-              "scene.pbrt:3:26: albedo of material 'coateddiffuse': a medium within the layer is not supported");
     // What a coat of reflectance f leaves of a metal of reflectance m: f + (1 − f)² m / (1 − f m). Here m is that of η and k
     // over 1.5.
     const SceneParts coated =
@@ -200,12 +178,6 @@ TEST_F(PbrtMaterials, MixturesAndInterfaces) {
     EXPECT_TRUE(read_pbrt("Material \"interface\"\nMediumInterface \"\" \"\"\nShape \"sphere\"").shapes.empty());
     EXPECT_EQ(warning(read_pbrt("Material \"interface\"\nAreaLightSource \"diffuse\"\nShape \"sphere\"")),
               "area light on a shape with the material 'interface': left out, as in pbrt");
-    EXPECT_EQ(pbrt_error("MakeNamedMaterial \"a\" \"string type\" \"mix\" \"string materials\" [\"a\" \"a\"]\nNamedMaterial "
-                         "\"a\"\nShape \"sphere\""),
-              "scene.pbrt:3:1: material 'a' is a mixture of itself");
-    EXPECT_EQ(pbrt_error("Material \"mix\" \"string materials\" [\"a\"]"),
-              "scene.pbrt:3:16: materials of material 'mix' are 1 names, expected two");
-    EXPECT_EQ(pbrt_error("MakeNamedMaterial \"a\""), "scene.pbrt:3:1: material 'a' has no \"string type\"");
 }
 
 TEST_F(PbrtMaterials, Pictures) {
@@ -246,16 +218,6 @@ TEST_F(PbrtMaterials, Pictures) {
     expect_near(texel("\"float scale\" 0.5 \"bool invert\" true"), Rgb(1.0 - 0.5 * grey), 1e-6, "inverted");
     expect_near(texel("\"float scale\" 10"), Rgb(1.0), 1e-6, "cut off at 1");
     expect_near(texel("\"string encoding\" \"gamma 2\""), Rgb(128 * 128 / 255.0 / 255.0), 1e-6, "gamma");
-    EXPECT_EQ(pbrt_error(with("\"imagemap\" \"string filename\" \"none.png\"")),
-              "scene.pbrt:3:35: there is no file 'none.png'; looked in: .");
-    EXPECT_EQ(pbrt_error(with("\"imagemap\" \"string filename\" \"a.ppm\" \"string wrap\" \"black\"")),
-              "scene.pbrt:3:61: wrap of texture 'imagemap' is 'black'; allowed: clamp, repeat");
-    EXPECT_EQ(pbrt_error(with("\"imagemap\" \"string filename\" \"a.ppm\" \"string mapping\" \"planar\"")),
-              "scene.pbrt:3:61: mapping of texture 'imagemap' is 'planar'; allowed: uv");
-    EXPECT_EQ(pbrt_error(with("\"marble\"")),
-              "scene.pbrt:3:1: texture type 'marble' is not supported; allowed: checkerboard, constant, imagemap, mix, scale");
-    EXPECT_EQ(pbrt_error("Material \"diffuse\" \"texture reflectance\" \"x\""),
-              "scene.pbrt:3:20: reflectance of material 'diffuse': there is no spectrum texture 'x'");
 }
 
 // A texture of an included file is found beside that, wherever it is used.
@@ -295,12 +257,6 @@ TEST_F(PbrtMaterials, ComputedTextures) {
     expect_near(value("Texture \"t\" \"spectrum\" \"checkerboard\" \"rgb tex1\" [1 0 0] \"texture tex2\" \"a\" \"float uscale\" 6 "
                       "\"float vscale\" 6"),
                 Rgb(1, 0, 0), 1e-12, "even cell");
-    EXPECT_EQ(pbrt_error("Texture \"t\" \"spectrum\" \"checkerboard\" \"integer dimension\" 3"),
-              "scene.pbrt:3:39: dimension of texture 'checkerboard' is 3, expected 2; solid textures are not supported");
-    EXPECT_EQ(pbrt_error("Texture \"a\" \"spectrum\" \"checkerboard\"\nTexture \"b\" \"spectrum\" \"checkerboard\"\nTexture \"t\" "
-                         "\"spectrum\" \"mix\" \"texture tex1\" \"a\" \"texture tex2\" \"b\" \"float amount\" 0.5"),
-              "scene.pbrt:5:1: two textures that vary can be combined only if both are pictures of the same size, filter, wrap and "
-              "mapping");
 }
 
 TEST_F(PbrtMaterials, NumbersThatVary) {
@@ -321,8 +277,6 @@ TEST_F(PbrtMaterials, NumbersThatVary) {
         "[0 0 0 1 0 0 0 1 0] \"point2 uv\" [0 0 1 0 0 1] \"texture alpha\" \"n\"");
     const Bsdf& mask = parts.bsdfs.at(static_cast<std::size_t>(parts.sides_of_shape.at(0).front));
     EXPECT_NEAR(eval(mask, point_with_coordinates(Vec2(0.25, 0.25)), Vec3(0, 0, 1), Vec3(0, 0, 1)).g, 0.5 * inv_pi / 3.0, 1e-7);
-    EXPECT_EQ(pbrt_error("AreaLightSource \"diffuse\"\nShape \"sphere\" \"float alpha\" 0.5"),
-              "scene.pbrt:4:16: alpha of shape 'sphere', which has an area light: expected one of them");
 }
 
 TEST_F(PbrtMaterials, NormalsThatVary) {
@@ -334,8 +288,6 @@ TEST_F(PbrtMaterials, NormalsThatVary) {
     EXPECT_TRUE(
         is_bent(read_pbrt("Texture \"d\" \"float\" \"imagemap\" \"string filename\" \"grey.pgm\"\nMaterial \"diffuse\" \"texture "
                           "displacement\" \"d\"\nShape \"sphere\"")));
-    EXPECT_EQ(pbrt_error("Material \"diffuse\" \"string normalmap\" \"none.png\"\nShape \"sphere\""),
-              "scene.pbrt:3:20: there is no file 'none.png'; looked in: .");
 }
 
 // A mesh without coordinates has (0, 0), (1, 0), (1, 1) at each triangle's corners in pbrt.
