@@ -97,7 +97,6 @@ TEST_F(GltfLights, PerspectiveCamera) {
     // One alone keeps the shape.
     EXPECT_EQ(read_gltf({{"width", "101"}}).film.height, 51);
     EXPECT_EQ(read_gltf({{"height", "40"}}).film.width, 80);
-    EXPECT_EQ(gltf_error({{"width", "a"}}), "scene.gltf#/cameras/0: 'a' is not an integer");
 }
 
 // The corners of the picture are xmag and ymag away from the axis, whatever the scale of the node.
@@ -124,9 +123,6 @@ TEST_F(GltfLights, SeveralCameras) {
     EXPECT_NEAR(read_gltf({{"camera", "1"}}).camera.fov, 0.25, 1e-15);
     EXPECT_NEAR(read_gltf({{"camera", "far.001"}}).camera.fov, 0.5, 1e-15);
     EXPECT_EQ(warnings(read_gltf({{"camera", "near"}})), "");
-    EXPECT_EQ(gltf_error({{"camera", "neer"}}),
-              "scene.gltf: -D camera=neer: there is no such camera, expected a number from 0 on or one of: far.001, near; did you "
-              "mean 'near'?");
 }
 
 // All of it is seen.
