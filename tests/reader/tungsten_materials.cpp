@@ -180,40 +180,4 @@ TEST_F(TungstenMaterials, NumbersInPictures) {
               "an opacity that is a picture without alpha: opaque, as in Tungsten\n");
 }
 
-TEST_F(TungstenMaterials, WhatIsNotKnown) {
-    const auto check = [&](const Json& bsdf, const std::string& error, const std::string& instead) {
-        EXPECT_EQ(tungsten_error(scene_with(bsdf)), "scene.json#/primitives/0/bsdf/" + error);
-        EXPECT_EQ(replaced(scene_with(bsdf)), "scene.json#/primitives/0/bsdf/" + instead + "\n");
-    };
-    check(
-        {{"type", "hair"}},
-        "type: bsdf type 'hair' is not supported; allowed: conductor, dielectric, diffuse_transmission, forward, lambert, mirror, "
-        "mixed, null, oren_nayar, phong, plastic, rough_coat, rough_conductor, rough_dielectric, rough_plastic, smooth_coat, "
-        "thinsheet, transparency",
-        "type: bsdf type 'hair' is not supported; taken as 'lambert' of albedo 0.5");
-    check({{"type", "oren_nayar"}}, "type: bsdf type 'oren_nayar' is not supported, expected a roughness of 0",
-          "type: bsdf type 'oren_nayar' is not supported; taken as 'lambert'");
-    check({{"type", "rough_coat"}}, "type: bsdf type 'rough_coat' is not supported; allowed: smooth_coat",
-          "type: bsdf type 'rough_coat' is not supported; taken as 'smooth_coat'");
-    check({{"type", "plastic"}, {"sigma_a", 2}},
-          "sigma_a: sigma_a of this bsdf, a layer that absorbs, is not supported, expected 0",
-          "sigma_a: sigma_a of this bsdf, a layer that absorbs, is not supported; taken as 0");
-    check({{"type", "thinsheet"}, {"enable_interference", true}},
-          "enable_interference: enable_interference is not supported, expected false",
-          "enable_interference: enable_interference is not supported; taken as false");
-    check({{"type", "lambert"}, {"bump", "heights.png"}},
-          "bump: bump is not supported: how deep it is depends on the picture's size", "bump: bump is not supported; left out");
-    check({{"type", "mixed"}, {"bsdf0", {{"type", "null"}}}, {"bsdf1", {{"type", "null"}}}, {"albedo", 0.5}},
-          "albedo: albedo of a mixed bsdf is not supported, expected 1; give those inside one",
-          "albedo: albedo of a mixed bsdf is not supported; taken as 1");
-    check({{"type", "rough_conductor"}, {"distribution", "gxx"}},
-          "distribution: distribution 'gxx' is not supported; allowed: beckmann, ggx, phong; did you mean 'ggx'?",
-          "distribution: distribution 'gxx' is not supported; taken as 'ggx'");
-    check({{"type", "lambert"}, {"albedo", {{"type", "blade"}}}},
-          "albedo/type: texture type 'blade' is not supported; allowed: bitmap, checker, constant",
-          "albedo/type: texture type 'blade' is not supported; taken as 0.5");
-    check({{"type", "lambert"}, {"int_medium", "fog"}}, "int_medium: int_medium: media are not supported, expected empty space",
-          "int_medium: int_medium: media are not supported; left out");
-}
-
 }  // namespace neumann::tungsten_materials_test

@@ -117,11 +117,6 @@ TEST_F(TungstenShapes, DisksAndCylinders) {
     Json open = cylinder;
     open["capped"] = false;
     EXPECT_EQ(read_tungsten(scene_of(open)).shapes.size(), 1u);
-    const Json checked = {{"type", "lambert"}, {"albedo", {{"type", "checker"}}}};
-    EXPECT_EQ(error_with({{"type", "disk"}, {"bsdf", checked}}),
-              "scene.json#/primitives/0/bsdf: textures on disks and cylinders are not supported, expected constants");
-    EXPECT_EQ(error_with({{"type", "disk"}, {"emission", 1}, {"cone_angle", 45}}),
-              "scene.json#/primitives/0/cone_angle: cone_angle is not supported, expected 90");
 }
 
 // The power of a surface is π times its area times its radiance.
@@ -225,7 +220,6 @@ TEST_F(TungstenShapes, MeshesThatAreWrong) {
         write("square.wo3", bytes);
         return error_with(mesh(Json::object()));
     };
-    EXPECT_EQ(error_of_bytes(""), "square.wo3: is empty, expected a file");
     EXPECT_EQ(error_of_bytes("123"), "square.wo3: the file ends after 3 bytes, before it says how many vertices follow");
     EXPECT_EQ(error_of_bytes(right.substr(0, 100)), "square.wo3: the file ends after 100 bytes, but 4 vertices follow from byte 8");
     EXPECT_EQ(error_of_bytes(right.substr(0, 140)),
@@ -241,11 +235,6 @@ TEST_F(TungstenShapes, MeshesThatAreWrong) {
     std::vector<Vertex> broken = square;
     broken[2].uv[0] = std::numeric_limits<float>::infinity();
     EXPECT_EQ(error_of_bytes(wo3(broken, halves)), "square.wo3: vertex 3: a number is not finite");
-    EXPECT_EQ(error_with(mesh({{"file", "none.wo3"}})), "scene.json#/primitives/0/file: there is no file 'none.wo3'; looked in: .");
-    write("a.ply", "ply");
-    EXPECT_EQ(error_with(mesh({{"file", "a.ply"}})),
-              "scene.json#/primitives/0/file: 'a.ply' is no mesh that is known, expected a .wo3 or a .obj");
-    EXPECT_EQ(error_with({{"type", "mesh"}}), "scene.json#/primitives/0: file is missing, expected the name of a mesh");
 }
 
 // They are turned and moved, not scaled.
@@ -262,11 +251,6 @@ TEST_F(TungstenShapes, Instances) {
     expect_near(std::get<Sphere>(parts.shapes[0]).center, {1, 2, 13}, 1e-12, "centre");
     EXPECT_EQ(std::get<Sphere>(parts.shapes[0]).radius, 1.0);
     for (const Vec3& v : std::get<TriangleMesh>(parts.shapes[1]).vertices) EXPECT_NEAR(v.z, 10.0, 1e-12);
-    Json wrong = instances;
-    wrong["instances"][1]["id"] = 2;
-    EXPECT_EQ(error_with(wrong), "scene.json#/primitives/0/instances/1/id: there is no master 2, only 2, counted from 0");
-    wrong["instances"] = "instances.bin";
-    EXPECT_EQ(error_with(wrong), "scene.json#/primitives/0/instances: instances in a file are not supported, expected an array");
 }
 
 }  // namespace neumann::tungsten_shapes_test
