@@ -157,15 +157,4 @@ TEST_F(ColladaCourse, WhoseView) {
     EXPECT_EQ(Vec3(read_dae(text, {{"camera", "1 0 0 7 0 1 0 8 0 0 1 9 0 0 0 1"}}).camera.to_world[3]), Vec3(7, 8, 9));
 }
 
-TEST_F(ColladaCourse, Errors) {
-    const auto expect = [&](const std::string& inside, const std::string& message) {
-        EXPECT_EQ(error_with({{"</effect>", "\n" + technique(inside) + "</effect>"}}), message);
-    };
-    expect("<miror/>", "scene.dae:13:36: unknown element <miror> in <technique>; did you mean 'mirror'?");
-    expect("<mirror/>", "scene.dae:13:36: <mirror> has no <reflectance> inside, expected one");
-    expect("<emission><radiance>1 1</radiance></emission>", "scene.dae:13:46: <radiance> has 2 numbers, expected 3 or 4");
-    EXPECT_EQ(error_with({{"</light>", "\n" + technique("<aera/>") + "</light>"}}),
-              "scene.dae:10:36: unknown element <aera> in <technique>; did you mean 'area'?");
-}
-
 }  // namespace neumann::collada_course_test

@@ -54,15 +54,6 @@ TEST_F(FlatPbrt, WhatIsLeftOut) {
     EXPECT_EQ(parts.warnings.counts().count("an instance whose transformation has no inverse: left out, as in pbrt"), 1u);
 }
 
-TEST_F(FlatPbrt, WhatLooksSomewhereNeedsAnInverse) {
-    EXPECT_EQ(pbrt_error("Scale 1 0 1\nLightSource \"spot\""),
-              "scene.pbrt:4:1: the transformation of light 'spot' has no inverse, expected one that scales nothing to 0");
-    EXPECT_EQ(pbrt_file_error("Scale 0 1 1\n" + pbrt("")),
-              "scene.pbrt:2:1: the transformation of the camera has no inverse, expected one that scales nothing to 0");
-    // A point light is where it is.
-    EXPECT_EQ(pbrt_error("Scale 1 0 1\nLightSource \"point\""), "no error");
-}
-
 class FlatCollada : public ColladaTest {
 protected:
     // The square of the small file is in its node's z = 0; turned into y = 0 around it.
@@ -79,11 +70,6 @@ TEST_F(FlatCollada, APlaneStaysAPlane) {
     const SceneParts line = read_flat(*this, "<scale>0.5 0 0</scale>");
     EXPECT_TRUE(line.shapes.empty());
     EXPECT_EQ(line.warnings.counts().count("a geometry that its node scales to nothing is left out"), 1u);
-    EXPECT_EQ(error_with({{"<translate>0 0 2</translate><instance_light", "<scale>1 0 1</scale>\n<instance_light"},
-                          {"<point><color>1 2 3</color><constant_attenuation>0</constant_attenuation><quadratic_attenuation>0.5</"
-                           "quadratic_attenuation></point>",
-                           "<spot><color>1 2 3</color></spot>"}}),
-              "scene.dae:24:1: the node of a light scales it to 0: it does not tell where the light shines");
 }
 
 class FlatGltf : public GltfTest {};
