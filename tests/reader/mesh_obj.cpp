@@ -96,77 +96,16 @@ TEST_F(MeshObj, FacesWithoutNormalsAmongOthersGetTheirOwn) {
 }
 
 TEST_F(MeshObj, RefusesNumbers) {
-    EXPECT_EQ(error("v 0 0 0\n  v 1 nan 0\n"), "FILE:2:7: vertex coordinate is not finite");
-    EXPECT_EQ(error("v inf 0 0\n"), "FILE:1:3: vertex coordinate is not finite");
-    EXPECT_EQ(error("vn 0 0 -inf\n"), "FILE:1:8: normal coordinate is not finite");
-    EXPECT_EQ(error("v 1 1.2x 0\n"), "FILE:1:5: expected a number, found '1.2x'");
-    EXPECT_EQ(error("v 1 +-2 0\n"), "FILE:1:5: expected a number, found '+-2'");
-    EXPECT_EQ(error("v 1 + 0\n"), "FILE:1:5: expected a number, found '+'");
-    EXPECT_EQ(error("v 1 0x10 0\n"), "FILE:1:5: expected a number, found '0x10'");
-    EXPECT_EQ(error("v 1 1,5 0\n"), "FILE:1:5: expected a number, found '1,5'");
-    EXPECT_EQ(error("v 1 1e999 0\n"), "FILE:1:5: number '1e999' is beyond the range of double precision");
-    EXPECT_EQ(error("v 1 2\n"), "FILE:1:6: expected a number, found the end of the line");
-    EXPECT_EQ(error("v 1 2 # 3\n"), "FILE:1:7: expected a number, found the end of the line");
     EXPECT_EQ(error("v 1 2"), "FILE:1:6: expected a number, found the end of the file");
-    EXPECT_EQ(error("v 1 2 \\\n  3z\n"), "FILE:2:3: expected a number, found '3z'");
-    EXPECT_EQ(error("v 1 2 3 red\n"), "FILE:1:9: expected a number, found 'red'");
-    EXPECT_EQ(error("v 1 2 3 4 5 6 7 8\n"), "FILE:1:17: expected the end of the line, found '8'");
-    EXPECT_EQ(error("vn 1 2 3 4\n"), "FILE:1:10: expected the end of the line, found '4'");
-    EXPECT_EQ(error("vt\n"), "FILE:1:3: expected a number, found the end of the line");
-    EXPECT_EQ(error("vt 0 inf\n"), "FILE:1:6: texture coordinate is not finite");
-    EXPECT_EQ(error("vt 0 u\n"), "FILE:1:6: expected a number, found 'u'");
-    EXPECT_EQ(error("v 1 2 " + std::string(50, 'a')), "FILE:1:7: expected a number, found '" + std::string(12, 'a') + "...'");
     EXPECT_EQ(error("v 1 \x01-\xFF 0\n"), "FILE:1:5: expected a number, found '?-?'");
 }
 
-TEST_F(MeshObj, RefusesIndices) {
-    EXPECT_EQ(error(three + "f 1 2 99\nv 1 1 1\n"), "FILE:4:7: vertex index 99 is out of range, the file has 4 vertices");
-    // The first of the file, not the largest.
-    EXPECT_EQ(error("f 1 4 2\nf 1 2 9\nf 1 2 5\n" + three), "FILE:1:5: vertex index 4 is out of range, the file has 3 vertices");
-    EXPECT_EQ(error("v 0 0 0\nf 1 1 2\n"), "FILE:2:7: vertex index 2 is out of range, the file has 1 vertex");
-    EXPECT_EQ(error(three + "f 1 2 -4\nv 1 1 1\n"), "FILE:4:7: vertex index -4 is out of range, the file has 3 vertices so far");
-    EXPECT_EQ(error(three + "f 0 1 2\n"), "FILE:4:3: vertex index 0, expected 1 for the first or -1 for the last");
-    EXPECT_EQ(error(three + "vn 0 0 1\nf 1//1 2//1 3//2\n"), "FILE:5:16: normal index 2 is out of range, the file has 1 normal");
-    EXPECT_EQ(error(three + "vt 0 0\nf 1/1 2/1 3/2\n"),
-              "FILE:5:13: texture coordinate index 2 is out of range, the file has 1 texture coordinate");
-    EXPECT_EQ(error(three + "f 1/0 2/1 3/1\n"),
-              "FILE:4:5: texture coordinate index 0, expected 1 for the first or -1 for the last");
-    EXPECT_EQ(error(three + "vn 0 0 1\nf 1/5/-2 2//1 3//1\n"),
-              "FILE:5:7: normal index -2 is out of range, the file has 1 normal so far");
-    EXPECT_EQ(error(three + "f 1//0 2//1 3//1\n"), "FILE:4:6: normal index 0, expected 1 for the first or -1 for the last");
-    EXPECT_EQ(error(three + "f 1 2 4294967297\n"), "FILE:4:7: vertex index 4294967297 is out of range, the file has 3 vertices");
-    EXPECT_EQ(error(three + "f 1 2 -9223372036854775808\n"),
-              "FILE:4:7: vertex index -9223372036854775808 is out of range, the file has 3 vertices so far");
-    EXPECT_EQ(error(three + "vn 0 0 1\nf 1//4294967296 2//1 3//1\n"),
-              "FILE:5:17: expected a normal at all vertices of a face or at none");
-}
-
-TEST_F(MeshObj, RefusesFaces) {
-    EXPECT_EQ(error(three + "f 1 \\\n 2\n"), "FILE:4:1: a face needs at least 3 vertices, found 2");
-    EXPECT_EQ(error(three + "f\n"), "FILE:4:1: a face needs at least 3 vertices, found 0");
-    for (const std::string corner : {"2/", "2//", "2/1/", "/1", "2x", "2/1/1/1", "2/a", "1.5", "9223372036854775808"}) {
-        const std::string shown = corner.size() > 12 ? corner.substr(0, 12) + "..." : corner;
-        EXPECT_EQ(error(three + "vn 0 0 1\nf 1 " + corner + " 3\n"),
-                  "FILE:5:5: expected a vertex as v, v/vt, v//vn or v/vt/vn, found '" + shown + "'");
-    }
-    EXPECT_EQ(error(three + "vn 0 0 1\nf 1//1 2 3//1\n"), "FILE:5:8: expected a normal at all vertices of a face or at none");
-    EXPECT_EQ(error(three + "vt 0 0\nf 1/1 2 3/1\n"),
-              "FILE:5:7: expected texture coordinates at all vertices of a face or at none");
-    EXPECT_EQ(error(three + "vn 0 0 1\nf 1 2 3//1\n"), "FILE:5:7: expected a normal at all vertices of a face or at none");
-}
-
 TEST_F(MeshObj, RefusesOtherElements) {
-    const std::string expected = ", expected v, vt, vn, f, l, p, g, o, s, mtllib or usemtl";
-    EXPECT_EQ(error("v 0 0 0\n curv 0 1 1 2\n"), "FILE:2:2: unsupported OBJ element 'curv'" + expected);
-    EXPECT_EQ(error("vp 0 0\n"), "FILE:1:1: unsupported OBJ element 'vp'" + expected);
-    EXPECT_EQ(error(std::string("\0-\x80", 3)), "FILE:1:1: unsupported OBJ element '?-?'" + expected);
+    EXPECT_EQ(error(std::string("\0-\x80", 3)),
+              "FILE:1:1: unsupported OBJ element '?-?', expected v, vt, vn, f, l, p, g, o, s, mtllib or usemtl");
 }
 
-TEST_F(MeshObj, RefusesFilesWithoutFaces) {
-    EXPECT_EQ(error(""), "FILE: is empty, expected a file");
-    EXPECT_EQ(error("\n"), "FILE: has no faces");
-    EXPECT_EQ(error(three), "FILE: has no faces");
-}
+TEST_F(MeshObj, RefusesFilesWithoutFaces) { EXPECT_EQ(error("\n"), "FILE: has no faces"); }
 
 TEST_F(MeshObj, RefusesFilesThatCannotBeOpened) {
     const auto message = [](const std::string& path) -> std::string {

@@ -54,8 +54,6 @@ protected:
     std::string error(const std::string& content, const std::vector<std::string>& attributes = {}) const {
         return MeshTestFile::error([&](const std::string& path) { return read_ply(path, attributes); }, content);
     }
-    // Of a header, with a body that fits none.
-    std::string header_error(const std::string& lines) const { return error("ply\nformat ascii 1.0\n" + lines + "end_header\n"); }
 };
 
 const std::string points = "0 0 0\n1 0 0\n0 1 0\n";
@@ -245,76 +243,6 @@ TEST_F(MeshPly, LineEnds) {
     }
 }
 
-TEST_F(MeshPly, RefusesHeaders) {
-    const std::string types = "expected a type (char, uchar, short, ushort, int, uint, float, double or int8 to float64), found ";
-    const std::string vertex = "element vertex 3\n" + xyz;
-    EXPECT_EQ(error(""), "FILE: is empty, expected a file");
-    EXPECT_EQ(error("v 0 0 0\n"), "FILE:1:1: expected 'ply' at the beginning of a PLY file, found 'v'");
-    EXPECT_EQ(error("ply 2\n"), "FILE:1:5: expected the end of the line, found '2'");
-    EXPECT_EQ(error("ply\nformat ascii 1.0\n"), "FILE: ends before 'end_header'");
-    EXPECT_EQ(error("ply\n" + vertex + "element face 1\n" + indices + "end_header\n"), "FILE: the header has no line 'format'");
-    EXPECT_EQ(error("ply\nformat binary 1.0\n"),
-              "FILE:2:8: expected ascii, binary_little_endian or binary_big_endian, found 'binary'");
-    EXPECT_EQ(error("ply\nformat ascii 2.0\n"), "FILE:2:14: expected version 1.0, found '2.0'");
-    EXPECT_EQ(header_error("format ascii 1.0\n"), "FILE:3:1: 'format' is given twice");
-    EXPECT_EQ(header_error("elements 3\n"),
-              "FILE:3:1: expected format, element, property, comment, obj_info or end_header, found 'elements'");
-    EXPECT_EQ(header_error("property float x\n"), "FILE:3:1: expected an element before its properties");
-    EXPECT_EQ(header_error("element\n"), "FILE:3:8: expected the name of an element, found the end of the line");
-    EXPECT_EQ(header_error("element vertex -3\n"), "FILE:3:16: expected the number of elements, found '-3'");
-    EXPECT_EQ(header_error("element vertex 4294967296\n"), "FILE:3:16: more than 4294967295 vertices");
-    EXPECT_EQ(header_error("element face 99999999999999999999\n"),
-              "FILE:3:14: expected the number of elements, found '999999999999...'");
-    EXPECT_EQ(header_error("element vertex 3 4\n"), "FILE:3:18: expected the end of the line, found '4'");
-    EXPECT_EQ(header_error("element tristrips 1\n"), "FILE:3:9: unsupported PLY element 'tristrips', expected an element 'face'");
-    EXPECT_EQ(header_error(vertex + "element vertex 3\n"), "FILE:7:9: element 'vertex' is given twice");
-    EXPECT_EQ(header_error("element face 3\nproperty quad a\n"), "FILE:4:10: " + types + "'quad'");
-    EXPECT_EQ(header_error("element face 3\nproperty\n"), "FILE:4:9: " + types + "the end of the line");
-    EXPECT_EQ(header_error("element face 3\nproperty list uchar\n"), "FILE:4:20: " + types + "the end of the line");
-    EXPECT_EQ(header_error("element face 3\nproperty list float int a\n"),
-              "FILE:4:15: expected an integer type for the length of a list");
-    EXPECT_EQ(header_error("element face 3\nproperty int\n"),
-              "FILE:4:13: expected the name of a property, found the end of the line");
-    EXPECT_EQ(header_error("element face 3\nproperty int a b\n"), "FILE:4:16: expected the end of the line, found 'b'");
-    EXPECT_EQ(header_error("element face 3\nproperty int vertex_index\n"),
-              "FILE:4:14: property 'vertex_index' is a number, expected a list");
-    EXPECT_EQ(header_error("element face 3\nproperty list uchar float vertex_index\n"),
-              "FILE:4:21: expected an integer type for vertex indices");
-    EXPECT_EQ(header_error("element face 3\n" + indices + "property list uchar int vertex_index\n"),
-              "FILE:5:25: property 'vertex_index' is given besides 'vertex_indices'");
-    EXPECT_EQ(header_error("element vertex 3\nproperty list uchar float x\n"),
-              "FILE:4:27: property 'x' is a list, expected a number");
-    EXPECT_EQ(header_error(vertex + "property float y\n"), "FILE:7:16: property 'y' is given twice");
-    EXPECT_EQ(header_error("element face 1\n" + indices), "FILE: the header has no element 'vertex'");
-    EXPECT_EQ(header_error(vertex), "FILE: the header has no element 'face'");
-    EXPECT_EQ(header_error("element vertex 3\nproperty float x\nproperty float y\nelement face 1\n" + indices),
-              "FILE:3:9: element 'vertex' has no property 'z'");
-    EXPECT_EQ(header_error(vertex + "property float nx\nproperty float nz\nelement face 1\n" + indices),
-              "FILE:3:9: element 'vertex' has no property 'ny'");
-    EXPECT_EQ(header_error(vertex + "element face 1\nproperty int a\n"),
-              "FILE:7:9: element 'face' has no property 'vertex_indices'");
-}
-
-TEST_F(MeshPly, RefusesAsciiBodies) {
-    // The body begins at line 10.
-    const std::string header = head("ascii", "3", "1");
-    EXPECT_EQ(error(header + "0 0 0\n1 nan 0\n"), "FILE:11:3: vertex coordinate is not finite");
-    EXPECT_EQ(error(header + "0 0 0\n1 0 0z\n"), "FILE:11:5: expected a number, found '0z'");
-    EXPECT_EQ(error(header + "0 0 0\n1 0\n0 1 0\n"), "FILE:11:4: expected a number, found the end of the line");
-    EXPECT_EQ(error(header + "0 0 0\n1 0 0 0\n"), "FILE:11:7: expected the end of the line, found '0'");
-    EXPECT_EQ(error(header + "0 0 1e999\n"), "FILE:10:5: number '1e999' is beyond the range of double precision");
-    EXPECT_EQ(error(header + points + "3 0 1 99\n"), "FILE:13:7: vertex index 99 is out of range, the file has 3 vertices");
-    EXPECT_EQ(error(header + points + "3 0 -1 2\n"), "FILE:13:5: vertex index -1 is out of range, the file has 3 vertices");
-    EXPECT_EQ(error(header + points + "3 0 1.0 2\n"), "FILE:13:5: expected an integer, found '1.0'");
-    EXPECT_EQ(error(header + points + "3 0 1\n"), "FILE:13:6: expected an integer, found the end of the line");
-    EXPECT_EQ(error(header + points + "2 0 1\n"), "FILE:13:1: a face needs at least 3 vertices, found 2");
-    EXPECT_EQ(error(header + points + "3 0 1 2\n3 0 1 2\n"),
-              "FILE:14:1: expected the end of the file after the last element, found '3'");
-    EXPECT_EQ(error("ply\nformat ascii 1.0\nelement a 1\nproperty list char int b\nelement vertex 3\n" + xyz + "element face 1\n" +
-                    indices + "end_header\n-2\n"),
-              "FILE:12:1: a list of length -2");
-}
-
 TEST_F(MeshPly, RefusesBinaryBodies) {
     const std::string header = head("binary_little_endian", "3", "2");
     const auto body = [] { return Bytes(std::endian::little); };
@@ -333,18 +261,9 @@ TEST_F(MeshPly, RefusesBinaryBodies) {
               "FILE: edge? 1: a list of length -2");
 }
 
-TEST_F(MeshPly, NormalsMustBeFinite) {
-    EXPECT_EQ(error("ply\nformat ascii 1.0\nelement vertex 3\n" + xyz +
-                    "property float nx\nproperty float ny\nproperty float nz\nelement face 1\n" + indices +
-                    "end_header\n0 0 0 0 0 inf\n"),
-              "FILE:13:11: normal coordinate is not finite");
-}
-
 TEST_F(MeshPly, RefusesTruncatedFiles) {
     const std::string ascii = head("ascii", "3", "2");
-    EXPECT_EQ(error(ascii), "FILE: ends before vertex 1 of 3");
     EXPECT_EQ(error(ascii + "0 0 0\n1 0 0\n0 1"), "FILE: ends after vertex 2 of 3");
-    EXPECT_EQ(error(ascii + points), "FILE: ends before face 1 of 2");
     EXPECT_EQ(error(ascii + points + "3 0 1 2\n3 0 1"), "FILE: ends after face 1 of 2");
     for (const auto order : {std::endian::little, std::endian::big}) {
         const std::string binary = head(order == std::endian::little ? "binary_little_endian" : "binary_big_endian", "3", "1");
@@ -357,23 +276,15 @@ TEST_F(MeshPly, RefusesTruncatedFiles) {
 }
 
 TEST_F(MeshPly, CountsOfTheHeaderAllocateNothing) {
-    for (const std::string format : {"ascii", "binary_little_endian", "binary_big_endian"}) {
-        EXPECT_EQ(error(head(format, "4294967295", "18446744073709551615")), "FILE: ends before vertex 1 of 4294967295");
-        EXPECT_EQ(error(head(format, "0", "18446744073709551615")), "FILE: ends before face 1 of 18446744073709551615");
-    }
-    const auto skipped = [&](const std::string& property, const std::string& body) {
-        return error("ply\nformat binary_little_endian 1.0\nelement a 9223372036854775807\n" + property + "element vertex 0\n" +
-                     xyz + "element face 0\n" + indices + "end_header\n" + body);
-    };
-    EXPECT_EQ(skipped("property double b\n", "12345678"), "FILE: ends after a 1 of 9223372036854775807");
-    EXPECT_EQ(skipped("property list uint double b\n", "\xFF\xFF\xFF\xFF"), "FILE: ends before a 1 of 9223372036854775807");
+    EXPECT_EQ(error("ply\nformat binary_little_endian 1.0\nelement a 9223372036854775807\nproperty list uint double b\n"
+                    "element vertex 0\n" +
+                    xyz + "element face 0\n" + indices + "end_header\n\xFF\xFF\xFF\xFF"),
+              "FILE: ends before a 1 of 9223372036854775807");
     const Bytes polygon = Bytes(std::endian::little).point(0, 0, 0).add(std::int32_t{2147483647}).add(0).add(0).add(0);
     EXPECT_EQ(error("ply\nformat binary_little_endian 1.0\nelement vertex 1\n" + xyz +
                     "element face 1\nproperty list int int vertex_indices\nend_header\n" + polygon.text()),
               "FILE: ends before face 1 of 1");
 }
-
-TEST_F(MeshPly, RefusesFilesWithoutFaces) { EXPECT_EQ(error(head("ascii", "3", "0") + points), "FILE: has no faces"); }
 
 TEST_F(MeshPly, RefusesFilesThatCannotBeOpened) {
     const std::string path = folder() + "/none";
