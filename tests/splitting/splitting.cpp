@@ -82,7 +82,7 @@ TEST(TreeNumbers, SayWhatATreeCosts) {
 }
 
 // The rays of renders by trees, as many times those of renders by walks as the tree costs. A tree of few branches rounds their
-// number at random, within 1%.
+// number at random: over 16 seeds the standard deviation is 0.15%, of which 4.5 are allowed.
 TEST(TreeNumbers, CostWhatTheyCostInRenders) {
     const Scene scene = read_scene(SCENES "/cornell-box/cornell-box.xml", {{"res", "32"}});
     SamplingSettings settings{.walk = {.bounces = 4, .rest_probability = 0.0}, .replicate_size = 16};
@@ -97,17 +97,18 @@ TEST(TreeNumbers, CostWhatTheyCostInRenders) {
     settings.method = tree_walks({ratios});
     const auto tree = rays();
     const auto sum = [](const auto& of) { return static_cast<double>(std::accumulate(of.begin(), of.end(), std::uint64_t{0})); };
-    EXPECT_NEAR(sum(tree) / sum(walk), walks_of_tree(ratios, cost), 0.01 * walks_of_tree(ratios, cost));
+    EXPECT_NEAR(sum(tree) / sum(walk), walks_of_tree(ratios, cost), 4.5 * 0.0015 * walks_of_tree(ratios, cost));
     EXPECT_GT(walks_of_tree(ratios, cost), 3.0);
 }
 
 // The parts of the variance add up to that of a path, and splitting at the first vertex divides all of them but the first. Beside
-// renders with one, four and sixteen walks from it, whose variance is told by 2048 samples and more of each of 144 pixels; both
-// sides are known to some 2%, and are allowed 10% (passed over five seeds with 6% at most).
+// renders with one, four and sixteen walks from it, whose variance is told by 2048 samples and more of each of 144 pixels. The
+// standard errors of the ratios, of pilot and render together, are what they vary by over seven seeds; 9 comparisons within 4 of
+// them, a false alarm in 1700 seeds.
 TEST(TreePilotSlow, PredictsTheVarianceOfSplitRenders) {
     const Scene scene = read_scene(SCENES "/cornell-box/cornell-box.xml", {{"res", "12"}});
     constexpr int bounces = 2;
-    const TreePilot pilot = measure_tree(scene, bounces, 4096, fixed_seed);
+    const TreePilot pilot = measure_tree(scene, bounces, 16384, fixed_seed);
     for (const int walks : {1, 4, 16}) {
         const SamplingSettings settings{.walk = {.bounces = bounces, .split = {walks, walks}, .rest_probability = 0.0},
                                         .sampler = SamplerKind::independent,
@@ -126,10 +127,11 @@ TEST(TreePilotSlow, PredictsTheVarianceOfSplitRenders) {
         const auto predicted = [&](const TreeMoments& tree) {
             return tree.variance[0] + std::accumulate(tree.variance.begin() + 1, tree.variance.end(), 0.0) / walks;
         };
+        const double standard_errors[] = {0.0, 0.0045, walks == 16 ? 0.025 : 0.0125}, of_sum = 0.0125;
         for (std::size_t k = 1; k <= bounces; ++k)
-            EXPECT_NEAR(predicted(pilot.bounces[k]) / variance(result.term(k)), 1.0, 0.1)
+            EXPECT_NEAR(predicted(pilot.bounces[k]) / variance(result.term(k)), 1.0, 4.0 * standard_errors[k])
                 << "bounce " << k << ", " << walks << " walks";
-        EXPECT_NEAR(predicted(pilot.sum) / variance(result.sum(bounces)), 1.0, 0.1) << walks << " walks";
+        EXPECT_NEAR(predicted(pilot.sum) / variance(result.sum(bounces)), 1.0, 4.0 * of_sum) << walks << " walks";
     }
     // Every depth costs at most a light sample and a ray, the last no ray that is not needed.
     EXPECT_NEAR(pilot.sum.cost[0], 1.0, 1e-12);
@@ -159,8 +161,9 @@ TEST(TreeWalkSlow, FindsLightOnceByAllStrategies) {
     }
 }
 
-// The variance and the rays of a tree with the best numbers are those that the pilot has reckoned with; as above, but the number of
-// branches is rounded at random, which costs less than a tenth where they are few.
+// The variance and the rays of a tree with the best numbers are those that the pilot has reckoned with. Over twelve seeds the
+// ratio's standard deviation is 0.8%, and the mean 1 within 0.3%, although the number of branches is rounded at random; 4.5 × 0.9%
+// is 4%.
 TEST(TreeWalk, HasTheVarianceThatThePilotPredicts) {
     const Scene scene = read_scene(SCENES "/cornell-box/cornell-box.xml", {{"res", "12"}});
     constexpr int bounces = 3;
@@ -182,7 +185,7 @@ TEST(TreeWalk, HasTheVarianceThatThePilotPredicts) {
     for (const Rgb& error : series.result().sum(bounces).standard_error.pixels) variance += 4096.0 * glm::dot(error, error);
     const double rays =
         static_cast<double>(std::accumulate(tally.rays.begin(), tally.rays.end(), std::uint64_t{0})) / (4096.0 * 144.0);
-    EXPECT_NEAR(variance * rays / work_of(pilot.sum, numbers), 1.0, 0.1);
+    EXPECT_NEAR(variance * rays / work_of(pilot.sum, numbers), 1.0, 4.5 * 0.009);
 }
 
 TEST(TreeRatios, SplitTowardsTheBounceThatIsWanted) {
