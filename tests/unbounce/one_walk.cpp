@@ -7,8 +7,10 @@
 #include "operators/statistics/student_t.h"
 
 #include <gtest/gtest.h>
+#include <boost/math/distributions/fisher_f.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace neumann::unbounce_one_walk_test {
@@ -62,30 +64,42 @@ TEST(OneWalk, MakesThePicturesOfSeparateRenders) {
     EXPECT_LT(std::sqrt(others / lit_others), 0.05);
 }
 
-// The spread of the means of terms over 64 seeds is known to 9%, and what their errors say on average to 3%: 4.5 times that is 43%.
+// The spread of the means of terms over 128 seeds is a variance of 127 degrees of freedom, and the mean of what their errors say of
+// 128 times theirs: the ratio of the two is F-distributed, and is beyond these quantiles in 7 of a million seeds for each of 6
+// comparisons. They are 0.77² and 1.38².
 TEST(OneWalk, ErrorsAreThoseOfRepeats) {
     const Scene scene = corner();
     const ProjectorLights projector(scene, 16, 4, 4);
-    constexpr int seeds = 64, bounces = 3;
-    for (const bool with_direct : {false, true}) {
-        std::vector<double> sum(bounces), squares(bounces), stated(bounces);
-        for (int seed = 0; seed < seeds; ++seed) {
-            const LightRenders renders = rendered(projector, bounces, 64, static_cast<std::uint64_t>(seed) + 10);
+    constexpr int seeds = 128, bounces = 3;
+    constexpr double degrees_of_freedom = 1.0 / (1.0 / 63.0 + 1.0 / 31.0), beyond = 3.4e-6;
+    struct Sums {
+        std::array<double, bounces> sum{}, squares{}, stated{};
+    };
+    std::array<Sums, 2> sums;  // without direct light, and with it
+    for (int seed = 0; seed < seeds; ++seed) {
+        const LightRenders renders = rendered(projector, bounces, 64, static_cast<std::uint64_t>(seed) + 10);
+        for (const bool with_direct : {false, true}) {
+            Sums& of = sums[with_direct];
             const Unbounced found =
                 unbounce(pictures_of(renders), renders.parts.regions, nullptr, {.bounces = bounces, .with_direct = with_direct});
-            EXPECT_NEAR(found.degrees_of_freedom, 1.0 / (1.0 / 63.0 + 1.0 / 31.0), 1e-12);
+            EXPECT_NEAR(found.degrees_of_freedom, degrees_of_freedom, 1e-12);
             for (std::size_t n = 0; n < bounces; ++n) {
                 const MeanWithError& mean = found.means[n].all;
-                sum[n] += mean.mean;
-                squares[n] += mean.mean * mean.mean;
-                stated[n] += mean.standard_error * mean.standard_error / seeds;
+                of.sum[n] += mean.mean;
+                of.squares[n] += mean.mean * mean.mean;
+                of.stated[n] += mean.standard_error * mean.standard_error / seeds;
             }
         }
-        for (std::size_t n = 0; n < bounces; ++n) {
-            const double spread = (squares[n] - sum[n] * sum[n] / seeds) / (seeds - 1);
-            EXPECT_NEAR(std::sqrt(stated[n] / spread), 1.0, 0.43) << "bounce " << n + 1 << (with_direct ? ", direct" : "");
-        }
     }
+    const boost::math::fisher_f ratio(seeds * degrees_of_freedom, seeds - 1.0);
+    for (const bool with_direct : {false, true})
+        for (std::size_t n = 0; n < bounces; ++n) {
+            const Sums& of = sums[with_direct];
+            const double spread = (of.squares[n] - of.sum[n] * of.sum[n] / seeds) / (seeds - 1);
+            EXPECT_GE(of.stated[n] / spread, quantile(ratio, beyond)) << "bounce " << n + 1 << (with_direct ? ", direct" : "");
+            EXPECT_LE(of.stated[n] / spread, quantile(complement(ratio, beyond)))
+                << "bounce " << n + 1 << (with_direct ? ", direct" : "");
+        }
 }
 
 // A camera that sees the middle of the corner alone: the terms backward are Sⁿ, and not Kⁿ Le. At 4.5 errors, with the
