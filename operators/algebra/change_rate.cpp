@@ -22,7 +22,7 @@ double ChangeRate::estimate() const {
 
 bool ChangeRate::not_falling() const {
     constexpr std::size_t window = 32;
-    // Rounding moves the terms of a furnace of albedo 1 by some 10⁻¹⁶ a bounce.
+    // The tolerance is there because rounding moves the terms of a furnace of albedo 1 by some 10⁻¹⁶ a bounce.
     return changes_.size() > window && !(changes_.back() < (1.0 - 1e-12) * changes_[changes_.size() - 1 - window]);
 }
 

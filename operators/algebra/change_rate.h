@@ -1,4 +1,3 @@
-// Estimates the remaining error from the terms of a series or the changes of an iteration.
 #pragma once
 
 #include <limits>
@@ -6,8 +5,9 @@
 
 namespace neumann {
 
-// Estimates the error of an iteration whose error falls like q^n from its changes ‖d_n‖: ‖d_n‖ q/(1−q), with q the largest mean
-// rate over the last 1 … 8 changes. This is not a bound: a slow component that is still small is not seen (0.5^n + 10⁻⁶ · 0.99^n).
+// Estimates the error of a series from its terms, or of an iteration from its changes ‖d_n‖, if the error falls like
+// q^n: ‖d_n‖ q/(1−q), with q the largest mean rate over the last 1 … 8 changes. This is not a bound: a slow component
+// that is still small is not seen (0.5^n + 10⁻⁶ · 0.99^n).
 class ChangeRate {
 public:
     void add(double change);

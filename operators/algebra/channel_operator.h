@@ -21,10 +21,11 @@ public:
     virtual void apply(const Vector& x, Vector& y) const = 0;  // y = K x
     virtual const Vector& measure() const = 0;                 // > 0
 
-    // Several processes may share K out, each with some of its rows: size() is the number of these, all vectors hold the values of
-    // their unknowns, and every process calls apply() and apply_adjoint(), in the same order.
+    // Several processes may share K, each with some of its rows. Then size() is the number of a process's own rows, all
+    // vectors hold the values of these unknowns, and every process calls apply() and apply_adjoint() in the same order.
     virtual const Agreement& agreement() const { return Agreement::alone(); }
-    // The number of the first of these unknowns among all, and how many there are in all.
+    // first() is the number of this process's first unknown among all unknowns, and unknowns() is how many there are in
+    // all.
     virtual std::size_t first() const { return 0; }
     virtual std::size_t unknowns() const { return static_cast<std::size_t>(size()); }
 

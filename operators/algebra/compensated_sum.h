@@ -12,7 +12,7 @@
 
 namespace neumann {
 
-// Returns sum + t, and adds the rounding error of that to `lost`.
+// Adds t to `sum`, and the rounding error of that addition to `lost`.
 template <class Real>
 void add_keeping(Real& sum, Real& lost, Real t) {
     const Real s = sum + t;
@@ -20,7 +20,7 @@ void add_keeping(Real& sum, Real& lost, Real t) {
     sum = s;
 }
 
-// The sum of fields stored as size() numbers at data(). For functions see operators/pointwise/field.h.
+// The sum of fields stored as size() numbers at data(). The sum of functions is in operators/pointwise/field.h.
 template <class Field>
 class CompensatedSum {
 public:

@@ -16,7 +16,7 @@ namespace neumann {
 
 struct Enclosure {
     bool exists = false;
-    std::string why;  // if it does not hold: the reason
+    std::string why;  // the reason, if there is no enclosure
     double c1 = 0.0, c2 = 0.0;
     Vector low, high;    // W·m⁻²·sr⁻¹
     double width = 0.0;  // max (high − low) / max high

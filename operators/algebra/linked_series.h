@@ -1,8 +1,8 @@
-// L = Le + Σ_m R T_m L with operators that stand for several bounces at once: the series of linked operators.
+// The series of linked operators, L = Le + Σ_m R T_m L, where an operator stands for several bounces at once.
 //
-// A ray that is reflected by m mirrors on its way brings light of m more bounces: with K = Σ_m R T_m, where T_m adds m to the
-// number of bounces, the terms are f_{k+1} = R Σ_m T_m f_{k−m}. Without links it is the Neumann series. What is given to a bounce
-// besides, b_k, adds to its term.
+// A ray that is reflected by m mirrors on its way brings light of m more bounces: with K = Σ_m R T_m, where T_m adds m
+// to the number of bounces, the terms are f_{k+1} = R Σ_m T_m f_{k−m}. Without links (m = 0 only) it is the Neumann
+// series. A source term b_k may be added to bounce k.
 #pragma once
 
 #include <algorithm>
@@ -13,12 +13,13 @@
 
 namespace neumann {
 
-// `product(field)` is R Σ_m T_m field(m), where field(m) points to a field, or is null for 0. Where the product is of finer fields
-// than the terms are, `lift` makes such a field of a term, and `lower` a term of it.
+// `product(field)` is R Σ_m T_m field(m), where field(m) points to a field, or is null for 0. If the product works on
+// finer fields than those of the terms, `lift` makes a finer field of a term, and `lower` makes a term of a finer
+// field.
 template <class Field, class Product, class Lift, class Lower>
 class LinkedSeries {
 public:
-    // The terms from `first` on. `links`: the largest m.
+    // `first` is the first term, and `links` the largest m.
     LinkedSeries(const Product& product, Lift lift, Lower lower, int links, Field first)
         : product_(product),
           lift_(std::move(lift)),
@@ -30,20 +31,21 @@ public:
 
     const Field& term() const { return term_; }
 
-    // f_{k+1} = R Σ_m T_m f_{k−m} + b_{k+1}; `given`: b, or null for 0.
+    // Steps to f_{k+1} = R Σ_m T_m f_{k−m} + b_{k+1}. `given` is b_{k+1}, or null for 0.
     void advance(const Field* given) {
         term_ = plus(lower_(product_([&](int m) { return past(static_cast<std::size_t>(m)); })), given);
         keep();
     }
 
-    // K f, for f that all links see alike.
+    // K f, where all links see the same f.
     Field apply(const Field& f) const {
         const Field lifted = lift_(f);
         return lower_(product_([&](int) { return &lifted; }));
     }
 
     bool has_links() const { return links_ > 0; }
-    // R Σ_m T_m Σ_{j≤m} f_{k−j} + b, with which the sum of all later terms begins: S = K S + this.
+    // R Σ_m T_m Σ_{j≤m} f_{k−j} + b, the right-hand side of the equation of the sum S of all later terms: S = K S +
+    // this.
     Field begun(const Field* given) const {
         std::vector<Field> sums{past_.front()};
         for (std::size_t j = 1; j < past_.size(); ++j) sums.push_back(sums.back() + past_[j]);
@@ -66,7 +68,7 @@ private:
     Lower lower_;
     std::size_t links_;
     Field term_;
-    std::deque<Field> past_;  // lifted: f_k, f_{k−1}, …
+    std::deque<Field> past_;  // f_k, f_{k−1}, … after `lift`
 };
 
 }  // namespace neumann

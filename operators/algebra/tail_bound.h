@@ -1,4 +1,3 @@
-// An a-priori bound on the tail of the series.
 #pragma once
 
 #include "core/base/vec.h"
@@ -9,8 +8,9 @@
 
 namespace neumann {
 
-// ‖Σ_{k>i} K^k Le‖∞ ≤ a^{i+1}/(1−a) ‖Le‖∞ for each channel, of which the largest is returned: T does not increase the sup norm and
-// R multiplies it by at most the largest albedo a (Arvo 1995). Infinite (no bound) if a ≥ 1 and there is light.
+// An a-priori bound on the tail of the series: ‖Σ_{k>i} K^k Le‖∞ ≤ a^{i+1}/(1−a) ‖Le‖∞ for each channel, of which the
+// largest is returned. T does not increase the sup norm, and R multiplies it by at most the largest albedo a (Arvo
+// 1995). Infinite (no bound) if a ≥ 1 and there is light.
 inline double tail_bound(const Rgb& largest_albedo, const Rgb& largest_radiance, int i) {
     double bound = 0.0;
     for (int c = 0; c < 3; ++c) {

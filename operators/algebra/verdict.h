@@ -1,4 +1,4 @@
-// How a series or a solver ended. "Stopped" is not "converged".
+// How a series or a solver ended. Only the first verdict means that the result has converged.
 #pragma once
 
 namespace neumann {

@@ -38,7 +38,7 @@ public:
         double pdf = 0.0;  // per solid angle, or delta_pdf
     };
 
-    // `side`: the side on which ωi is.
+    // `side` is the side on which ωi is.
     static Sample sample(const Materials& materials, const SurfaceSide& side, const Vec3& wi, Vec2 u) {
         const Frame& frame = side.p.frame;
         const bool lawful = is_lawful(*side.bsdf);
@@ -75,9 +75,9 @@ public:
     }
 
 private:
-    // The factor between the weight of a delta lobe for R* and that for radiance. `a` is ωi, for which the BSDF was sampled, and
-    // `b` the sampled direction. L/n² is conserved while the beam changes from dω(b) to dω(a) about the normal m of the mirror or
-    // boundary, which follows from the two directions.
+    // The factor between the weight of a delta lobe for R* and that for radiance. `a` is ωi, for which the BSDF was
+    // sampled, and `b` the sampled direction. L/n² is conserved while the beam changes from dω(b) to dω(a) about the
+    // normal m of the mirror or boundary, which follows from the two directions.
     static double only_direction(const Vec3& normal, const Vec3& a, const Vec3& b, double eta) {
         double beam = std::abs(glm::dot(normal, b) / glm::dot(normal, a));
         if (eta != 1.0) {

@@ -1,5 +1,5 @@
-// Radiance as a function that can be asked for its value. A field whose value is an integral answers with an unbiased random
-// estimate, so it takes random numbers; asked again with others, it answers otherwise, and is right on average.
+// Radiance as a function of point and direction. A field whose value is an integral returns an unbiased random estimate
+// of it, which depends on the random numbers that it is given.
 //
 // Exitant and incident fields are different types: T turns one into the other and R turns it back, so `R * T` compiles and `T * T`
 // does not.
@@ -32,7 +32,7 @@ public:
 
     Rgb operator()(const SurfacePoint& p, const Vec3& w, Random& random) const { return value_(p, w, random); }
 
-    // f is asked first.
+    // f is evaluated before g.
     friend Field operator+(Field f, Field g) { return combined(std::move(f), std::move(g), 1.0); }
     friend Field operator-(Field f, Field g) { return combined(std::move(f), std::move(g), -1.0); }
     friend Field operator*(double a, Field f) {
@@ -52,7 +52,7 @@ private:
 using ExitantField = Field<struct Exitant>;
 using IncidentField = Field<struct Incident>;
 
-// Of functions: asks all of them, the first one first, and adds up their values.
+// The sum of functions: evaluates all of them, the first one first, and adds up their values.
 template <class Side>
 class CompensatedSum<Field<Side>> {
 public:

@@ -1,7 +1,9 @@
-// (R g)(p, ωo) = ∫ fs(p, ωi → ωo) g(p, ωi) |cos θi| dωi: what leaves p is what arrives, scattered by the material. Materials only:
-// no ray is traced here. The integral is estimated with one direction, drawn from the material's own density.
+// (R g)(p, ωo) = ∫ fs(p, ωi → ωo) g(p, ωi) |cos θi| dωi: what leaves p is what arrives, scattered by the material. R
+// needs materials only; no ray is traced here. The integral is estimated with one direction, drawn from the material's
+// own density.
 //
-// Its adjoint spreads what leaves over where it comes from, (R* f)(p, ωi) = ∫ fs(p, ωi → ωo) f(p, ωo) |cos θo| dωo.
+// The adjoint distributes what leaves p over the directions that it comes from: (R* f)(p, ωi) = ∫ fs(p, ωi → ωo) f(p,
+// ωo) |cos θo| dωo.
 #pragma once
 
 #include "core/material/materials.h"

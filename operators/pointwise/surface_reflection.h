@@ -1,9 +1,9 @@
-// The same reflection written as an integral over surfaces instead of directions (Dutré's surface formulations):
+// R written as an integral over surfaces instead of directions (Dutré's surface formulations):
 //
 //     (R g)(x, ωo) = ∫_A fs(x, y → ωo) V(x, y) G(x, y) g(x, xy) dA(y),   G = |cos θx cos θy| / ‖x − y‖²,
 //
-// with xy the direction from x to y. The kernel f·V·G is the whole of it; y is drawn uniformly from all surfaces. Unlike the
-// hemisphere form this one asks for visibility, and it counts only what arrives from surfaces. A mirror has no fs to evaluate: its
+// with xy the direction from x to y. y is drawn uniformly from all surfaces. Unlike the integral over directions, this
+// one needs the visibility V, and it counts only what arrives from surfaces. A mirror has no fs to evaluate: its
 // reflection cannot be written this way.
 #pragma once
 
@@ -19,7 +19,7 @@ public:
     using Domain = IncidentField;
     using Range = ExitantField;
 
-    // All three are kept by reference. Throws InputError where a material is a mirror.
+    // All three are kept by reference. Throws InputError if a material is a mirror.
     SurfaceReflectionOperator(const Geometry& geometry, const AreaSampler& surfaces, const Materials& materials)
         : geometry_(&geometry), surfaces_(&surfaces), materials_(&materials) {
         for (const Bsdf& bsdf : materials.bsdfs())

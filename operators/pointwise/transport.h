@@ -1,7 +1,8 @@
-// (T f)(p, ω) = f(tr(p, ω), −ω): what arrives at p from ω is what left the first surface seen along ω. Geometry only.
+// (T f)(p, ω) = f(tr(p, ω), −ω): what arrives at p from ω is what left the first surface seen along ω. T needs geometry
+// only.
 //
-// Its adjoint is the same the other way round, as rays go both ways: (T* g)(q, ω) = g(tr(q, ω), −ω), what leaves q along ω is worth
-// what it is where it arrives; of surfaces, for what leaves the scene is worth nothing. ⟨f, g⟩ = ∫∫ f g |cos θ| dω dA.
+// The adjoint, (T* g)(q, ω) = g(tr(q, ω), −ω), has the same form because rays go both ways, with ⟨f, g⟩ = ∫∫ f g |cos
+// θ| dω dA. It is 0 where the ray leaves the scene.
 #pragma once
 
 #include "core/geometry/geometry.h"
