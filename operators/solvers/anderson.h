@@ -9,7 +9,7 @@
 
 namespace neumann {
 
-// Keeps m ≥ 1 changes. The norm is weighted with the measure.
+// Keeps the last m ≥ 1 changes. The norm is weighted with the measure.
 SolverResult solve_anderson(const Problem&, int m);
 
 }  // namespace neumann

@@ -27,7 +27,7 @@ SolverResult solve_bicgstab(const Problem& problem) {
     Eigen::BiCGSTAB<EigenSystem, Eigen::IdentityPreconditioner> bicgstab;
     bicgstab.compute(system);
     const Vector scaled = system.scaled(problem.Le);
-    // Tolerance of the residual, relative to that of x = 0.
+    // `goal` is the tolerance of the residual, relative to that of x = 0.
     const double least = std::numeric_limits<double>::epsilon();
     double goal = log.first_goal();
     for (;;) {

@@ -11,10 +11,10 @@ SolverResult solve_chebyshev(const Problem& problem, double lowest, double highe
     if (!(lowest <= highest && highest < 1.0))
         return log.end(problem.Le, Verdict::refused,
                        fmt::format("needs lowest ≤ highest < 1 for the eigenvalues of K, not [{:.6g}, {:.6g}]", lowest, highest));
-    // I − K has its eigenvalues in centre ± half.
+    // The eigenvalues of I − K are in centre ± half.
     const double centre = 1.0 - 0.5 * (lowest + highest), half = 0.5 * (highest - lowest);
     double c = half / centre;
-    // From x = 0, whose residual is Le.
+    // The iteration starts from x = 0, whose residual is Le.
     Vector r = problem.Le, d = r / centre, x = d, Kd;
     double estimate = std::numeric_limits<double>::infinity();
     for (;;) {

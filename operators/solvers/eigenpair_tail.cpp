@@ -41,7 +41,7 @@ SolverResult solve_eigenpair_tail(const Problem& problem) {
         if (!std::isfinite(scale) || !log.all_finite(x))
             return log.end(x, Verdict::broke_down, "the leading eigenvector is defective");
         if (log.is_rounding(tail, x)) return log.end_rounding(x, rounding);
-        // These parts fall in the end; what remains is the error of the leading eigenpair.
+        // These parts fall in the end; what remains of them is the error of the leading eigenpair.
         if (rate.not_falling() && other <= 1e-8 * log.largest(series.term()))
             return log.end(x, Verdict::rounding, "the other modes are down to the accuracy of the leading one");
         if (log.exhausted()) return log.end_limit(x);

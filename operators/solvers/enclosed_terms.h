@@ -1,4 +1,3 @@
-// The enclosure of a series by its last terms.
 #pragma once
 
 #include "operators/algebra/enclosure.h"
@@ -6,7 +5,8 @@
 
 namespace neumann {
 
-// Compares neighbouring terms first, and every second term if neighbours alternate. `before_last`: the term before series.before().
+// The enclosure of a series by its last terms. Compares neighbouring terms first, and every second term if there is no
+// enclosure by neighbours. `before_last` is the term before series.before().
 Enclosure enclose_last(const TermSeries& series, const Vector& before_last, const Vector& sum, const Agreement& agreement);
 
 }  // namespace neumann

@@ -43,7 +43,7 @@ SolverResult solve_gmres(const Problem& problem, int restart) {
     });
     gmres.compute(system);
     gmres.set_restart(steps);
-    // Tolerance of the residual, relative to that of x = 0.
+    // `goal` is the tolerance of the residual, relative to that of x = 0.
     const double least = std::numeric_limits<double>::epsilon();
     double goal = log.first_goal();
     for (;;) {

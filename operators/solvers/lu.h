@@ -5,8 +5,8 @@
 
 namespace neumann {
 
-// Forms K column by column, which counts as one application. Refused if the matrix is larger than `most_bytes`, and if the answer
-// is negative, because elimination also solves problems whose series diverges.
+// Forms K column by column, which counts as one application. Refused if the matrix is larger than `most_bytes`, and if
+// the solution is negative, because elimination also solves problems whose series diverges.
 SolverResult solve_lu(const Problem&, double most_bytes = 2e9);
 
 }  // namespace neumann

@@ -1,4 +1,5 @@
-// An operator of the algebra as the solvers' K, and I − K handed to one of them: solve(I - R * T, Le, measure, solve_gmres).
+// An operator of the algebra as the K of a solver. solve(I - R * T, Le, measure, solve_gmres) hands I − K to one of the
+// solvers.
 #pragma once
 
 #include "operators/algebra/algebra.h"
@@ -20,7 +21,7 @@ template <Endomorphism Op>
 requires OnUnknowns<typename Op::Domain>
 class OperatorChannel : public ChannelOperator {
 public:
-    // `measure`: the measure of each unknown, in whose inner product K* is the adjoint of K.
+    // `measure` is the measure of each unknown, in whose inner product K* is the adjoint of K.
     OperatorChannel(Op K, Vector measure) : K_(std::move(K)), adjoint_(adjoint_of(K_)), measure_(std::move(measure)) {}
 
     Eigen::Index size() const override { return measure_.size(); }
@@ -79,8 +80,9 @@ private:
     Vector measure_;
 };
 
-// Solves (I − K) L = Le with a solver given as a function or by name. `how`: the problem without K and Le, which are filled in. If
-// the solver needs K* or entries and K has none, the verdict is Verdict::refused. For fields on finitely many unknowns only.
+// Solves (I − K) L = Le with a solver given as a function or by name. `how` is the problem without K and Le, which are
+// filled in. If the solver needs K* or entries and K has none, the verdict is Verdict::refused. For fields on finitely
+// many unknowns only.
 template <Endomorphism K>
 requires OnUnknowns<typename K::Domain> SolverResult solve(const Difference<Identity<typename K::Domain>, K>& equation,
                                                            const typename K::Domain& Le, Vector measure, const Solver& solver,

@@ -19,7 +19,7 @@ SolverResult solve_sor(const Problem& problem, double omega) {
     for (;;) {
         double change = 0.0;
         for (Eigen::Index u = 0; u < x.size(); ++u) {
-            // 1 − K_uu ≤ 0: patch u alone, seen by itself, has no finite radiance.
+            // 1 − K_uu ≤ 0 means that patch u alone, seen by itself, has no finite radiance.
             const double rest = 1.0 - K.diagonal(u);
             if (!(rest > 0.0)) return log.end(x, Verdict::diverging, fmt::format("K_uu ≥ 1 at unknown {}", u));
             const double step = omega * (problem.Le[u] + K.row(u, x) - x[u]) / rest;
@@ -30,7 +30,7 @@ SolverResult solve_sor(const Problem& problem, double omega) {
         if (!log.all_finite(x)) return log.end_overflow(x, "the iterates");
         rate.add(change);
         const double rounding = log.rounding(rate.rate()), size = log.largest(x);
-        // What an unknown's residual keeps of its own change.
+        // The part of its own change that is left in the residual of an unknown.
         const double kept = std::abs(1.0 / omega - 1.0);
         if (log.reached(x, size == 0.0 ? 0.0 : std::max(change == 0.0 ? 0.0 : log.tail(change, rate, kept) / size, rounding)))
             return log.end(x, Verdict::converged, fmt::format("the changes fall at the rate {:.6g}", rate.rate()));

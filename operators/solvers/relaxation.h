@@ -14,7 +14,7 @@ namespace neumann {
 // Visits the unknowns in order and gathers along rows of K.
 SolverResult solve_gauss_seidel(const Problem&);
 
-// As Gauss-Seidel, with each change multiplied by omega, 0 < omega < 2.
+// Gauss-Seidel with each change multiplied by omega, 0 < omega < 2.
 SolverResult solve_sor(const Problem&, double omega);
 
 // Southwell's relaxation, called shooting in radiosity: always relaxes the unknown with the most unshot power measure_u |r_u|, and

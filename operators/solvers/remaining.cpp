@@ -11,7 +11,7 @@ std::optional<int> bounces_until(const std::vector<SeriesRow>& rows, double frac
         if (!(last.ratio < 1.0)) return std::nullopt;
         rest = last.term.power * last.ratio / (1.0 - last.ratio);
     }
-    // Added up from the last and smallest terms.
+    // The sums begin with the last and smallest terms.
     std::vector<double> after(rows.size());
     for (std::size_t n = rows.size(); n-- > 0;) {
         after[n] = rest;

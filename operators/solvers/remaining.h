@@ -14,8 +14,8 @@ namespace neumann {
 // Σ_{k>n} P_k is the power of L − S_n.
 std::optional<int> bounces_until(const std::vector<SeriesRow>& rows, double fraction);
 
-// Rows with the power alone. They end when the following terms are below `fraction` of the whole, when the terms stop falling, or
-// after `most` bounces. `b`: K Le, which may be known more precisely than by applying K.
+// Rows that hold the power alone. They end when the following terms are below `fraction` of the whole, when the terms
+// stop falling, or after `most` bounces. `b` is K Le, which may be known more precisely than by applying K.
 std::vector<SeriesRow> power_rows(const ChannelOperator& K, const Vector& Le, const Vector& b, double fraction, int most);
 
 }  // namespace neumann

@@ -30,7 +30,7 @@ SeriesRun run_series(const ChannelOperator& K, const Vector& Le, const SeriesOpt
     TermSeries series(K, Le);
     ChangeRate rate;
     RadiusEvidence evidence(&K, bounded ? options.norm : std::nullopt);
-    std::optional<double> inverse;  // a bound on ‖(I − K)⁻¹‖∞, once it was asked for
+    std::optional<double> inverse;  // a bound on ‖(I − K)⁻¹‖∞, once it has been computed
     Vector before_last;
     const double emitted = agreement.size(Le);
     const auto end = [&](Verdict verdict, std::string why) {
@@ -60,7 +60,7 @@ SeriesRun run_series(const ChannelOperator& K, const Vector& Le, const SeriesOpt
                        "the terms grew until they were not finite");
         if (row.term.sup == 0.0)
             return end(Verdict::converged, fmt::format("term {} is 0, and so are all that follow", row.bounce));
-        // Rounding each term by ε leaves about ε/(1 − q) of the sum.
+        // Rounding each term by ε leaves an error of about ε/(1 − q) of the sum.
         const double rounding = rate.rate() < 1.0 ? epsilon / (1.0 - rate.rate()) : epsilon;
         const auto close = [&](std::string how) {
             if (rounding <= options.tolerance) return end(Verdict::converged, std::move(how));
@@ -75,7 +75,7 @@ SeriesRun run_series(const ChannelOperator& K, const Vector& Le, const SeriesOpt
             if (!inverse) inverse = bound_inverse(K).norm;
             if (*inverse == infinity)
                 return close(fmt::format("estimated from the rate {:.6g}, not bounded: {}", rate.rate(), run.enclosure.why));
-            // What follows is (I − K)⁻¹ K t_n, and K (I − K)⁻¹ 1 = (I − K)⁻¹ 1 − 1.
+            // The tail is (I − K)⁻¹ K t_n, and K (I − K)⁻¹ 1 = (I − K)⁻¹ 1 − 1.
             if (row.term.sup * (*inverse - 1.0) <= allowed)
                 return close(fmt::format("bounded with ‖(I − K)⁻¹‖∞ ≤ {:.6g}", *inverse));
         }

@@ -12,7 +12,7 @@
 
 namespace neumann {
 
-// One bounce. The bounds are on ‖L − S_n‖∞ in W·m⁻²·sr⁻¹, infinite if there is none.
+// One bounce. The bounds are on ‖L − S_n‖∞ in W·m⁻²·sr⁻¹; they are infinite if there is none.
 struct SeriesRow {
     int bounce = 0;
     TermNorms term;                // of K^n Le
@@ -40,10 +40,12 @@ struct SeriesRun {
     Enclosure enclosure;  // the last one looked for
 };
 
-// Verdicts. Converged: the enclosure, or the bound with a < 1, or that with ‖(I − K)⁻¹‖∞ (inverse_bound.h), is within the
-// tolerance; all are rigorous up to rounding. If none exists, the estimate decides, and `why` says so. Rounding: only rounding
-// errors are left, and they exceed the tolerance. Diverging: the terms did not fall over 32 bounces, and the spectral radius, which
-// is then computed, is 1 or more; a ≥ 1 alone only causes a warning.
+// Verdicts:
+// converged: the enclosure, the bound with a < 1, or the bound with ‖(I − K)⁻¹‖∞ (inverse_bound.h) is within the tolerance;
+//     all are rigorous up to rounding. If none exists, the estimate decides, and `why` says so.
+// rounding: only rounding errors are left, and they exceed the tolerance.
+// diverging: the terms did not fall over 32 bounces, and the spectral radius, which is then computed, is 1 or more;
+//     a ≥ 1 alone only causes a warning.
 SeriesRun run_series(const ChannelOperator& K, const Vector& Le, const SeriesOptions& options = {});
 
 }  // namespace neumann

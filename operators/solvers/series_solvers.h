@@ -10,9 +10,9 @@ namespace neumann {
 // x = S_n, with compensated summation. The estimate is that of SolverLog::tail().
 SolverResult solve_neumann(const Problem&);
 
-// x = S_n + t_n λ/(1−λ) with one ratio for all unknowns, λ = ⟨t_n, t_n⟩ / ⟨t_n, t_{n−1}⟩. If |λ| ≥ 1, for example if terms
-// alternate, there is no extrapolation and x = S_n; refused if the method ends so. This accelerator tolerates noise in the terms,
-// because λ is an average.
+// x = S_n + t_n λ/(1−λ) with one ratio for all unknowns, λ = ⟨t_n, t_n⟩ / ⟨t_n, t_{n−1}⟩. If |λ| ≥ 1, for example if
+// terms alternate, there is no extrapolation and x = S_n; the result is refused if the method ends in this state. This
+// accelerator tolerates noise in the terms, because λ is an average.
 SolverResult solve_ratio_tail(const Problem&);
 
 // Aitken's Δ² for each unknown: x = S_n + t_n²/(t_{n−1} − t_n). Breaks down where t_{n−1} = t_n ≠ 0, or t_{n−1} = 0 ≠ t_n.

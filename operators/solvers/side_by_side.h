@@ -1,4 +1,4 @@
-// Runs all solvers on one problem, with LU's answer as the reference.
+// Runs all solvers on one problem, with the solution of LU as the reference.
 #pragma once
 
 #include "operators/solvers/solvers.h"
@@ -18,15 +18,15 @@ struct SolverRow {
 };
 
 struct SideBySide {
-    std::string reference = "LU";  // whose answer errors are against
+    std::string reference = "LU";  // the solver against whose solution the errors are
     std::vector<SolverRow> rows;   // in the order of solvers()
     Vector exact;                  // the reference's L; empty if it gave none
     std::string no_reference;      // why the reference gave no L; empty if it did
-    bool interrupted = false;      // the rows end early
+    bool interrupted = false;      // the watch stopped the solvers before all rows were there
 };
 
-// `histories`: record true errors; each solver runs again for them, because some are slow with them. A solver that `watch` stops
-// gets no row. `exact` and `observer` of the problem are not used.
+// `histories` records true errors; each solver runs a second time for them, because some are slow when they record
+// them. A solver that `watch` stops gets no row. `exact` and `observer` of the problem are not used.
 SideBySide solve_side_by_side(Problem problem, bool histories = false, const Watch& watch = {});
 
 }  // namespace neumann

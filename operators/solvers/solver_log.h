@@ -1,4 +1,4 @@
-// Shared by all solvers: counts applications, records the history, and checks the answer at the end.
+// The part that all solvers share: counts applications, records the history, and checks the solution at the end.
 #pragma once
 
 #include "core/base/stopwatch.h"
@@ -17,7 +17,7 @@ public:
     const Problem& problem() const { return problem_; }
     const ChannelOperator& K() const { return *problem_.K; }
 
-    // ‖x‖∞; 0 if x is empty; not a number if a value is not.
+    // ‖x‖∞; 0 if x is empty, not a number if a value is not a number.
     double largest(const Vector& x) const { return K().agreement().size(x); }
     bool all_finite(const Vector& x) const { return K().agreement().all_finite(x); }
 
@@ -25,26 +25,27 @@ public:
     double applications() const { return result_.applications; }
     void count(double applications) { result_.applications += applications; }
     void setup_ends() { result_.setup = result_.applications; }
-    // Those that serve the answer, and not what is said of it: without those of diverges() and of bound_inverse().
+    // The applications that compute the solution, without those of diverges() and bound_inverse(), which only judge it.
     double own_applications() const {
         return result_.applications - evidence_.applications() - (inverse_ ? inverse_->applications : 0.0);
     }
     // Whether all allowed applications are used up.
     bool exhausted() const { return own_applications() >= static_cast<double>(problem_.most); }
 
-    // ‖(I − K)⁻¹‖∞, which errors are residuals times: a bound (inverse_bound.h), found at the first call. Where there is none,
-    // 1 / (1 − radius), and without a radius the larger of ‖x‖∞ / ‖Le‖∞ and 1 / (1 − rate), if they are given; these are lower
-    // bounds.
+    // ‖(I − K)⁻¹‖∞, the factor between residuals and errors. It is a bound (inverse_bound.h), found at the first call.
+    // If there is no bound, it is 1 / (1 − radius), and without a radius the larger of ‖x‖∞ / ‖Le‖∞ and 1 / (1 − rate),
+    // if they are given; these are lower bounds.
     double amplification(const Vector* x = nullptr, double rate = 0.0);
-    // Error of x from its residual r = Le + K x − x, relative to ‖x‖∞; at least the rounding error of x.
+    // The error of x, relative to ‖x‖∞, from its residual r = Le + K x − x; at least the rounding error of x.
     double from_residual(const Vector& r, const Vector& x, double rate = 0.0);
-    // ‖x − L‖∞ after a change of the size `change`, of which K makes the residual, and `more` times it is left beside: the last
-    // term of a series, or what a sweep of relaxation changed. Bounded by the amplification, or else estimated from the rate.
+    // ‖x − L‖∞ after the last change, whose size is `change`: the last term of a series, or what a sweep of relaxation
+    // changed. The residual is K times the change, plus at most `more` times the change. Bounded by the amplification,
+    // or else estimated from the rate.
     double tail(double change, const ChangeRate& rate, double more = 0.0);
-    // The same of a series, which may be enclosed as well (operators/algebra/enclosure.h). `before_last`: the term before
-    // series.before(); `sum`: series.sum().
+    // ‖x − L‖∞ of a series, which may be enclosed as well (operators/algebra/enclosure.h). `before_last` is the term
+    // before series.before(), and `sum` is series.sum().
     double tail(const TermSeries& series, const Vector& before_last, const Vector& sum, const ChangeRate& rate);
-    // How that was found, in words.
+    // Says in words how tail() was found.
     std::string found_tail(const ChangeRate& rate);
     // The tolerance of a residual, relative to Le, with which a Krylov method begins.
     double first_goal();
@@ -63,19 +64,20 @@ public:
     // Whether the spectral radius is below 1. Both functions return false if it cannot be found.
     bool converges();
 
-    // Ends with x. An answer with verdict `converged` or `rounding` is refused if the given spectral radius is 1 or more, if x is
-    // 10¹² times Le, or if Le ≥ 0 but x is negative somewhere and the radius is not below 1. For K ≥ 0, a solution x ≥ 0 proves
-    // convergence: x = S_n + K^{n+1} x ≥ S_n for all n.
+    // Ends with x. A result with verdict `converged` or `rounding` is refused if the given spectral radius is 1 or
+    // more, if x is 10¹² times Le, or if Le ≥ 0 but x is negative somewhere and the radius is not below 1. For K ≥ 0, a
+    // solution x ≥ 0 proves convergence: x = S_n + K^{n+1} x ≥ S_n for all n.
     SolverResult end(Vector x, Verdict verdict, std::string why);
     // Refuses because the method needs entries of K, and this K can only be applied.
     SolverResult end_without_entries();
-    // All applications are used up. If the radius is known to be 1 or more, the verdict is diverging.
+    // Ends because all applications are used up. If the radius is known to be 1 or more, the verdict is diverging.
     SolverResult end_limit(Vector x);
     // Ends because diverges() is true; `seen` is what was observed.
     SolverResult end_diverging(Vector x, const std::string& seen);
-    // `what` grew until it was not finite: the verdict is broke_down, unless the series diverges.
+    // Ends because `what` grew until it was not finite: the verdict is broke_down, unless the series diverges.
     SolverResult end_overflow(Vector x, const char* what);
-    // `error`: the relative error due to rounding. Refused if it is above a thousandth.
+    // Ends because only rounding is left. `error` is the relative error due to rounding; refused if it is above a
+    // thousandth.
     SolverResult end_rounding(Vector x, double error);
 
 private:

@@ -14,7 +14,8 @@ struct NamedSolver {
     Solver solve;
 };
 
-// In the order of tables: the series, its extrapolations, relaxation, polynomial and Krylov methods, and LU as the reference.
+// All solvers in the order of tables: the series, its extrapolations, relaxation, polynomial and Krylov methods, and LU
+// as the reference.
 const std::vector<NamedSolver>& solvers();
 
 // Returns nullptr if there is none with this name.

@@ -1,4 +1,4 @@
-// A K that can interrupt a solver: before every use it asks a Watch whether to stop.
+// A K that can interrupt a solver: asks a Watch before a use whether to stop.
 #pragma once
 
 #include "operators/algebra/channel_operator.h"
@@ -8,7 +8,8 @@
 
 namespace neumann {
 
-// Every use throws Stopped once watch.stop() returns true, on one of the processes that share K.
+// apply(), apply_adjoint(), row() and add_column() throw Stopped once watch.stop() returns true on one of the processes
+// that share K.
 class StoppableChannel : public ChannelOperator {
 public:
     StoppableChannel(std::shared_ptr<const ChannelOperator> K, Watch watch) : K_(std::move(K)), watch_(std::move(watch)) {}

@@ -169,7 +169,7 @@ Eigenpairs slepc_eigenpairs(const ChannelOperator& K, int count, const std::stri
             result.pairs.push_back(std::move(pair));
         }
         result.converged = found.converged;
-        // Its word is not taken for it, either.
+        // Whether the pairs are found is checked with their residuals, not only by what SLEPc reports.
         constexpr double small = 1e-6;
         for (const Eigenpair& pair : result.pairs) {
             if (!result.converged || pair.residual <= small * std::abs(result.pairs.front().value)) continue;

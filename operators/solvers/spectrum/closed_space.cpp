@@ -8,7 +8,7 @@ namespace neumann {
 
 namespace {
 
-// Adds V's part of f to `part` and removes it from f; twice is enough (Kahan and Parlett).
+// Adds V's part of f to `part` and removes it from f. Removing it twice is enough (Kahan and Parlett).
 void remove(const Eigen::Ref<const Eigen::MatrixXd>& V, Vector& f, Vector& part) {
     part = Vector::Zero(V.cols());
     for (int i = 0; i < 2; ++i) {
@@ -54,8 +54,8 @@ std::vector<Eigenpair> leading_pairs(const Eigen::MatrixXd& V, const Eigen::Matr
 }
 
 std::optional<Vector> last_light(ScaledProduct& K) {
-    // Fixed numbers in place of ones: an x ≠ 0 whose K x is 0 by chance, as that of a K with negative entries may be, is not among
-    // them. They stand for what is lit, so that nothing underflows.
+    // The lit unknowns have fixed pseudo-random numbers rather than ones, because a K with negative entries may map
+    // ones to 0 by chance. They are set again after each product, so that nothing underflows.
     Vector light(K.rows());
     FixedNumbers().fill(light);
     light = light.cwiseAbs().array() + 0.5;

@@ -16,19 +16,20 @@ struct ClosedSpace {
     Eigen::MatrixXd V, H;
 };
 
-// What is left of K x beside a space, relative to the product's size, if it is nothing but rounding errors: the space has closed.
+// A space has closed if the part of K x outside it, relative to the size of K, is below this: then it is nothing but
+// rounding errors.
 constexpr double closing = 1e-14;
 
 // Adds spaces that fixed pseudo-random vectors span (Arnoldi's method) until there are `wanted` columns and the last one has
 // closed.
 void extend(ClosedSpace& space, const ScaledProduct& K, Eigen::Index wanted);
 
-// The `wanted` pairs V y, H y = λ y, of largest modulus, or as many as there are; without their residuals.
+// The `wanted` pairs V y, H y = λ y, of largest modulus, or as many as there are. Their residuals are left at 0.
 std::vector<Eigenpair> leading_pairs(const Eigen::MatrixXd& V, const Eigen::MatrixXd& H, Eigen::Index wanted);
 
-// Where light ends whatever emits, K^m = 0: a last v ≠ 0 with K v = 0 exactly. All eigenvalues are 0 then; a method that computes
-// them finds the m-th root of ε. For K ≥ 0 this follows the unknowns that have light, of which each bounce leaves fewer, until they
-// are none or stay the same. Scales K by its first product.
+// Returns a v ≠ 0 with K v = 0 exactly if K^m = 0, that is if light ends whatever emits. All eigenvalues are 0 then; a
+// method that computes them would find the m-th root of ε. For K ≥ 0 this follows the unknowns that have light, of
+// which each bounce leaves fewer, until there are none or they stay the same. Scales K by its first product.
 std::optional<Vector> last_light(ScaledProduct& K);
 
 }  // namespace neumann

@@ -13,7 +13,7 @@ struct RadiusBounds {
     bool meet() const { return high - low <= 1e-10 * high; }
 };
 
-// So many applications show whether K ≥ 0 keeps some light for good.
+// The number of applications after which it shows whether K ≥ 0 keeps some light for good.
 constexpr double most_for_bounds = 1000.0;
 
 // Upper bound: ρ(K) ≤ ‖K^n 1‖∞^(1/n), for every n. Lower bound: if y ≥ 0, y ≠ 0 and K y ≥ a y, then ρ(K) ≥ a (Collatz and

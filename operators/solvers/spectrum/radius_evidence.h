@@ -1,4 +1,4 @@
-// Whether a series diverges whose terms have stopped falling: it does if the spectral radius is 1 or more.
+// Tells whether a series whose terms have stopped falling diverges: it does if the spectral radius is 1 or more.
 //
 // The terms alone cannot show it. Behind forty mirrors they stay constant for forty bounces; if K is not normal, they may grow for
 // a long time before they fall; below 10⁻³⁰⁸ they consist of rounding errors.
@@ -14,10 +14,10 @@ namespace neumann {
 
 class RadiusEvidence {
 public:
-    // K must outlive this object. `given`: its spectral radius, or an estimate of it.
+    // K must outlive this object. `given` is the spectral radius of K, or an estimate of it.
     RadiusEvidence(const ChannelOperator* K, std::optional<double> given) : K_(K), radius_(given) {}
 
-    // The first call computes the radius if it was not given. False if the radius cannot be found.
+    // The first call computes the radius if it was not given. Returns false if the radius cannot be found.
     bool shows_divergence() {
         find();
         return known_to_diverge();
@@ -35,7 +35,7 @@ public:
 private:
     void find() {
         if (radius_) return;
-        // If it takes more applications than these, K is far from normal, as behind many mirrors.
+        // If more applications are needed, K is far from normal, as behind many mirrors.
         constexpr double few_hundred = 400.0;
         const Eigenpairs leading = leading_eigenpairs(*K_, 1, false, {.most = few_hundred});
         applications_ = leading.applications;

@@ -12,7 +12,8 @@
 
 namespace neumann {
 
-// Ends a search that has not found what it looked for. `because`: why, or empty if it used up its applications.
+// Thrown to end a search that has not found its result. `because` is the reason, or empty if the search used up its
+// applications.
 struct EndedSearch {
     std::string because;
 };
@@ -23,13 +24,13 @@ public:
     using Scalar = double;
     using Apply = std::function<void(const Vector&, Vector&)>;
 
-    // `cost`: the applications of K that one product takes.
+    // `cost` is the number of applications of K that one product takes.
     ScaledProduct(Eigen::Index size, Apply apply, const EigenLimits& limits, double cost = 1.0)
         : apply_(std::move(apply)), limits_(limits), cost_(cost), input_(size), output_(size) {}
 
     // Called with the address of each vector that K is to be applied to; may throw to end a search.
     std::function<void(const double*)> observer = [](const double*) {};
-    double residual = 1.0;  // of the search so far, for those who look
+    double residual = 1.0;  // the residual of the search so far, which EigenLimits::look gets
 
     // s becomes the power of two for which `size` has a modulus of about 1; 0 changes nothing.
     void scale_to(double size) {
@@ -45,7 +46,7 @@ public:
 
     Eigen::Index rows() const { return input_.size(); }
     Eigen::Index cols() const { return input_.size(); }
-    // Within the limits: throws EndedSearch where they are reached.
+    // The product for Spectra. Throws EndedSearch when the limits are reached.
     void perform_op(const double* x, double* y) const {
         observer(x);
         if (applications_ >= limits_.most) throw EndedSearch{""};
@@ -59,7 +60,7 @@ public:
         perform_op(x.data(), y.data());
         return y;
     }
-    // Whatever the limits are.
+    // The product without regard to the limits.
     Vector unlimited(const Vector& x) const {
         input_ = x;
         return of_input();

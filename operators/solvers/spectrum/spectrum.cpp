@@ -21,9 +21,9 @@ constexpr Eigen::Index small = 64;
 constexpr double tolerance = 1e-12;
 // A pair counts as found if its residual is below this, relative to the eigenvalue's modulus …
 constexpr double found = 1e-10;
-// … or below this, relative to K: an eigenvalue that is 0, or nearly, is not known better.
+// … or below this, relative to the size of K: an eigenvalue that is 0, or nearly, is not known better.
 constexpr double rounding = 64.0 * std::numeric_limits<double>::epsilon();
-// Never reached: the applications of K are limited instead.
+// This many restarts are never reached: the applications of K are limited instead.
 constexpr Eigen::Index most_restarts = 1 << 20;
 // After this many applications, and at every doubling, the number that is still needed is predicted.
 constexpr double first_forecast = 512.0;
@@ -33,7 +33,7 @@ struct Closed {
     Eigen::Index columns;
 };
 
-// A search of Spectra's that ends where its space closes. `Base`: GenEigsSolver or SymEigsSolver.
+// A search by Spectra that ends where its space closes. `Base` is GenEigsSolver or SymEigsSolver.
 template <class Base>
 class ClosingSearch : public Base {
 public:
@@ -44,7 +44,7 @@ public:
     ClosingSearch(const ClosingSearch&) = delete;
     ClosingSearch& operator=(const ClosingSearch&) = delete;
 
-    // K is applied to vectors that are no longer its own.
+    // Stops watching K, which may then be applied to vectors that are not columns of V.
     void ends() {
         K_.observer = [](const double*) {};
     }
@@ -53,10 +53,10 @@ public:
     }
 
 protected:
-    // The columns of H that are finished; V has one more.
+    // The number of columns of H that are finished; V has one more.
     Eigen::Index finished() const { return std::max<Eigen::Index>(last_, 0); }
     ScaledProduct& product() const { return K_; }
-    // Called after each restart, with as many finished columns.
+    // Called after each restart, with as many columns finished as the restart kept.
     virtual void restarted() {}
 
 private:
@@ -64,7 +64,8 @@ private:
         const Eigen::MatrixXd &V = this->m_fac.matrix_V(), &H = this->m_fac.matrix_H();
         const bool in_basis = V.size() > 0 && x >= V.data() && x < V.data() + V.size();
         if (!in_basis) {
-            // The first vector of all; later ones start a new space, because the columns so far have closed one.
+            // The first vector of all is not in V. Later ones start a new space, because the columns so far have closed
+            // one.
             if (last_ < 0) return;
             throw Closed{last_ + 1 == this->m_ncv ? this->m_fac.subspace_dim() : last_ + 1};
         }
@@ -113,7 +114,7 @@ private:
             throw EndedSearch{fmt::format("it falls too slowly for {:.0f}", most_)};
     }
 
-    // Pairs (λ, y) of H: K V = V H + f eᵀ, so V y has the residual |f| |y_last|.
+    // Eigenpairs (λ, y) of H. As K V = V H + f eᵀ, V y has the residual |f| |y_last|.
     std::vector<Eigenpair> small_pairs() const {
         const Eigen::Index k = finished();
         const auto& H = m_fac.matrix_H();
@@ -140,7 +141,7 @@ void unscale(Eigenpair& pair, const ScaledProduct& K) {
     pair.residual = K.unscaled(pair.residual);
 }
 
-// Whether they are eigenpairs is asked of K itself, however the search ended.
+// Checks with K itself whether the pairs are eigenpairs, however the search ended.
 void check(Eigenpairs& result, const ScaledProduct& K, Eigen::Index wanted) {
     EigenStep last;
     last.residual = 0.0;

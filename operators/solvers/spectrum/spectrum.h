@@ -14,21 +14,22 @@
 
 namespace neumann {
 
-// The state of a search. `residual`: the largest ‖K v − λ v‖₂ / |λ| of the wanted pairs, with ‖v‖₂ = 1.
+// The state of a search. `residual` is the largest ‖K v − λ v‖₂ / |λ| of the wanted pairs, with ‖v‖₂ = 1.
 struct EigenStep {
     double applications = 0.0, residual = 1.0;
 };
 
-// When a search gives up.
+// The limits at which a search gives up.
 struct EigenLimits {
-    // Applications of K. A search also gives up when its residuals fall so slowly that it would need more.
+    // The largest number of applications of K. A search also gives up when its residuals fall so slowly that it would
+    // need more.
     double most = 10000.0;
     std::function<void(const EigenStep&)> look = [](const EigenStep&) {};  // called before each application
     Watch watch = {};                                                      // a search that it stops has not converged
 };
 
-// The operator norms induced by Σ m|f|, (Σ m f²)^½ and max |f|, with the measure m. If f is radiance and m is étendue, Σ m|f| is
-// power. `one_at`: the unknown whose power a bounce reduces least.
+// The operator norms induced by Σ m|f|, (Σ m f²)^½ and max |f|, with the measure m. If f is radiance and m is étendue,
+// Σ m|f| is power. `one_at` is the unknown whose power a bounce reduces least.
 struct OperatorNorms {
     double one = 0.0, two = 0.0, sup = 0.0;  // two: not a number if it was not found
     Eigen::Index one_at = 0;
@@ -55,9 +56,10 @@ struct Eigenpairs {
     double radius() const;
 };
 
-// The `count` eigenvalues of largest modulus of K, or of K* if `adjoint` is set, by Arnoldi's method with implicit restarts
-// (Spectra). If K has at most 64 unknowns, its matrix is formed and decomposed. The start vector is fixed, so the result is
-// reproducible. Of a multiple eigenvalue it may find fewer vectors than there are, like every method that starts from one vector.
+// The `count` eigenvalues of largest modulus of K, or of K* if `adjoint` is set, by Arnoldi's method with implicit
+// restarts (Spectra). If K has at most 64 unknowns, its matrix is formed and decomposed. The start vector is fixed, so
+// the result is reproducible. Like every method that starts from one vector, it may find fewer vectors of a multiple
+// eigenvalue than there are.
 Eigenpairs leading_eigenpairs(const ChannelOperator& K, int count, bool adjoint = false, const EigenLimits& limits = {});
 
 // |λ₁|, or not a number if it was not found.

@@ -1,4 +1,4 @@
-// EPS.
+// SLEPc's eigenvalue solvers (EPS).
 #include "operators/solvers/petsc/module/session.h"
 
 #include <slepceps.h>

@@ -1,4 +1,4 @@
-// KSP.
+// PETSc's linear solvers (KSP).
 #include "operators/solvers/petsc/module/session.h"
 
 #include <array>
@@ -8,7 +8,7 @@ namespace neumann::petsc {
 
 namespace {
 
-// Those that do with products and the diagonal.
+// Whether the preconditioner needs more than products and the diagonal.
 bool needs_entries(std::string_view preconditioner) {
     constexpr std::array<std::string_view, 3> simple = {PCNONE, PCJACOBI, PCSHELL};
     return std::find(simple.begin(), simple.end(), preconditioner) == simple.end();
@@ -56,7 +56,7 @@ public:
         check(KSPSetFromOptions(ksp_));
         PetscReal relative = 0.0, absolute = 0.0;
         check(KSPGetTolerances(ksp_, &relative, &absolute, nullptr, nullptr));
-        // Several solvers begin from 0 alone (preonly, richardson with some preconditioners).
+        // Several solvers can only begin from 0 (preonly, richardson with some preconditioners).
         check(KSPSetInitialGuessNonzero(ksp_, x.isZero(0.0) ? PETSC_FALSE : PETSC_TRUE));
         check(KSPSolve(ksp_, b_, x_));
         copy(x_, x);

@@ -1,4 +1,4 @@
-// PetscMatrix as PETSc's matrices.
+// A PetscMatrix as matrices of PETSc.
 #include "operators/solvers/petsc/module/session.h"
 
 #include <algorithm>
@@ -34,7 +34,7 @@ PetscErrorCode get_diagonal(Mat shell, Vec d) {
     });
 }
 
-// A row, its columns in order and each once.
+// A row with its columns in order, each of them once.
 class Row {
 public:
     void read(const PetscMatrix& A, Eigen::Index u) {

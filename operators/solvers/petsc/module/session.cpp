@@ -13,14 +13,14 @@ namespace neumann::petsc {
 namespace {
 
 std::exception_ptr thrown_by_matrix;
-std::string message;  // of the first error
+std::string message;  // the text of the first error
 
 PetscErrorCode note(MPI_Comm, int, const char*, const char*, PetscErrorCode code, PetscErrorType type, const char* text, void*) {
     if (type == PETSC_ERROR_INITIAL && text && message.empty()) message = text;
     return code;
 }
 
-// MPI can be started once. Whoever has started it ends it.
+// MPI can be started only once. Whoever started it has to end it.
 void start_mpi() {
     int is_there = 0;
     MPI_Initialized(&is_there);

@@ -1,4 +1,4 @@
-// What the files of this module share: calls that may fail, and PETSc's objects with owners.
+// The parts that the files of this module share: calls that may fail, and PETSc's objects with owners.
 #pragma once
 
 #include "operators/solvers/petsc/petsc.h"
@@ -10,10 +10,10 @@
 
 namespace neumann::petsc {
 
-// Throws what a function of a matrix has thrown, or else PETSc's message.
+// Throws what a function of a matrix has thrown, or else PETSc's message; does nothing if the code is 0.
 void check(PetscErrorCode code);
 
-// Calls f, which may throw, from a function that PETSc calls: what it throws is kept for check().
+// guarded() calls f, which may throw, from a function that PETSc calls; keep() stores what f threw for check().
 void keep(std::exception_ptr thrown);
 template <class F>
 PetscErrorCode guarded(const F& f) {
@@ -42,7 +42,7 @@ private:
 using OwnedMat = Owned<Mat, MatDestroy>;
 using OwnedVec = Owned<Vec, VecDestroy>;
 
-// The matrix by its products, and by its entries; both for PETSC_COMM_WORLD.
+// make_shell() represents the matrix by its products, and make_entries() by its entries; both for PETSC_COMM_WORLD.
 void make_shell(const PetscMatrix& A, Mat* shell);
 void make_entries(const PetscMatrix& A, Mat* entries);
 void make_vector(const PetscMatrix& A, Vec* x);
