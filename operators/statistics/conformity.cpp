@@ -53,8 +53,8 @@ Conformity conformity_by_error(const Estimate& picture, const SampledReference& 
     check_size(picture.mean, reference.mean);
     check_size(picture.mean, reference.variance);
     const auto n = static_cast<double>(reference.samples), samples = picture.degrees_of_freedom + 1.0;
-    // Rounding to half floats at the end and to floats in each addition: uniformly distributed errors have the standard deviation
-    // bound / √3.
+    // The rounding to half floats at the end and to floats in each addition: uniformly distributed errors have the
+    // standard deviation bound / √3.
     const double rounding = std::hypot(0x1p-11, n * 0x1p-25) / std::sqrt(3.0);
     return judge(picture.mean, picture.degrees_of_freedom, [&](std::size_t pixel, int c) {
         const double mean = reference.mean.pixels[pixel][c], difference = picture.mean.pixels[pixel][c] - mean;
@@ -62,7 +62,7 @@ Conformity conformity_by_error(const Estimate& picture, const SampledReference& 
         // The variance is a difference of two half floats, whose smallest positive value is 2⁻²⁴.
         const double stored = std::max(reference.variance.pixels[pixel][c], 0.0);
         const double of_sample = stored + 0x1p-11 * (mean * mean + stored) + 0x1p-24;
-        // If our samples missed rare events, their spread is too small.
+        // If the picture's samples missed rare events, their spread is too small.
         const double own = std::max(std::pow(picture.standard_error.pixels[pixel][c], 2), of_sample / samples);
         return difference / std::sqrt(own + of_sample / n + std::pow(rounding * mean, 2));
     });

@@ -18,9 +18,9 @@ namespace {
 
 using Plane = std::vector<float>;
 using Planes = std::array<Plane, 3>;
-using Kernel = std::vector<float>;  // of an odd number of weights
+using Kernel = std::vector<float>;  // has an odd number of weights
 
-// Andersson et al. 2020, table 1 and sections 4 and 5.
+// These constants are in Andersson et al. 2020, table 1 and sections 4 and 5.
 constexpr double qc = 0.7, pc = 0.4, pt = 0.95, feature_width = 0.082;
 // The D65 white of the sRGB matrix.
 const Rgb white(0.950428545, 1.0, 1.088900371);
@@ -47,7 +47,7 @@ Rgb rgb_of_opponent(const Rgb& c) {
     return rgb_of(Rgb(y + c.y / 500.0, y, y - c.z / 200.0) * white);
 }
 
-// L*a*b*, whose colours count less where it is dark (Hunt).
+// L*a*b*, whose colours count less where it is dark (the Hunt effect).
 Rgb hunt_lab(const Rgb& rgb) {
     const Rgb r = xyz_of(rgb) / white;
     const auto f = [](double t) {
@@ -110,7 +110,8 @@ private:
     std::size_t width_, height_;
 };
 
-// Contrast sensitivity, as sums of a √(π/b) exp(−π² x²/b), x in degrees, and separable: each such a Gaussian is.
+// The contrast sensitivity is a sum of terms a √(π/b) exp(−π² x²/b), x in degrees, each of which is a separable
+// Gaussian.
 struct Sensitivity {
     double a, b;
 };
@@ -141,7 +142,7 @@ Features features_of(const Plane& luminance, const Filter& filter) {
     const double sigma = 0.5 * feature_width * flip_pixels_per_degree;
     const int radius = static_cast<int>(std::ceil(3.0 * sigma));
     const Kernel plain = gaussian(radius, sigma), smooth = scaled(plain, 1.0 / sum_of(plain));
-    // Positive weights add up to 1, negative ones to −1.
+    // The positive weights add up to 1, and the negative ones to −1.
     const auto detector = [&](const auto& shape) {
         Kernel kernel = plain;
         double positive = 0.0, negative = 0.0;
@@ -198,14 +199,14 @@ void expect_one_size(const Image& test, const Image& reference) {
         throw InputError(fmt::format("{}×{} pixels against {}×{}", test.width, test.height, reference.width, reference.height));
 }
 
-// Exposures in stops.
+// The exposures, in stops, of HDR-FLIP.
 std::vector<double> exposures_for(const Image& reference) {
     std::vector<double> lit;
     for (const Rgb& p : reference.pixels)
         if (const double y = luminance(p); y > 0.0) lit.push_back(y);
     if (lit.empty()) return {0.0};
     std::sort(lit.begin(), lit.end());
-    // Where the curve is t = 0.85.
+    // x is where the curve is t = 0.85.
     constexpr double t = 0.85, k0 = 0.6 * 0.6 * (2.51 - 2.43 * t), k1 = 0.6 * (0.03 - 0.59 * t), k2 = -0.14 * t;
     const double half = 0.5 * k1 / k0, x = -half + std::sqrt(half * half - k2 / k0);
     const double median = 0.5 * (lit[(lit.size() - 1) / 2] + lit[lit.size() / 2]);

@@ -4,9 +4,9 @@
 //               Images, 2020
 //     HDR-FLIP  Andersson, Nilsson, Shirley and Akenine-Möller, Visualizing Errors in Rendered High Dynamic Range Images, 2021
 //
-// In each pixel HDR-FLIP is the largest LDR-FLIP over exposures at intervals of about a stop, from where the brightest pixel of the
-// reference is nearly white to where its median is, after the ACES tone curve. A pixel is seen at 1/67 of a degree: a 4K monitor
-// 0.7 m wide, from 0.7 m.
+// The HDR-FLIP of a pixel is its largest LDR-FLIP over exposures at intervals of about a stop, after the ACES tone
+// curve: from the exposure at which the brightest pixel of the reference is nearly white to that at which its median
+// is. A pixel is seen at 1/67 of a degree, as on a 4K monitor 0.7 m wide from 0.7 m.
 #pragma once
 
 #include "core/image/image.h"
@@ -17,11 +17,12 @@ namespace neumann {
 
 constexpr double flip_pixels_per_degree = 0.7 * 3840 / 0.7 * 3.14159265358979323846 / 180.0;
 
-// Linear RGB from 0 to 1; a value for each pixel. Throws InputError if the sizes differ.
+// LDR-FLIP of linear RGB from 0 to 1; returns a value for each pixel. Throws InputError if the sizes differ.
 std::vector<float> ldr_flip(const Image& test, const Image& reference);
 
-// Scene-linear pictures; what is negative counts as 0. In a pixel that is not finite in one of them the error is 1, in both 0; its
-// neighbours see it as black. The median is that of the pixels that are not black. Throws InputError if the sizes differ.
+// HDR-FLIP of scene-linear pictures, in which negative values count as 0. The error of a pixel that is not finite is 1
+// if it is so in one of the pictures, and 0 if in both; its neighbours see it as black. The median is that of the
+// pixels that are not black. Throws InputError if the sizes differ.
 std::vector<float> hdr_flip(const Image& test, const Image& reference);
 
 // The mean of hdr_flip().

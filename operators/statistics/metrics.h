@@ -8,9 +8,9 @@
 
 namespace neumann {
 
-// Means are over all channels of all pixels; x is the value in the picture and r in the reference. The terms with ε keep dark
-// pixels from dominating; they scale with the picture, so its brightness does not matter. A term with x = r is 0, also in two black
-// pictures. Against a black reference, relMSE and MAPE of any other picture are infinite.
+// Means are over all channels of all pixels; x is the value in the picture and r in the reference. The terms with ε
+// keep dark pixels from dominating; they scale with the picture, so its brightness does not matter. A term with x = r
+// is 0, also in two black pictures. Against a black reference, relMSE and MAPE of any other picture are infinite.
 //
 //     RMSE    √ mean (x − r)²
 //     relMSE  mean (x − r)² / (r² + ε·mean(r)²)
@@ -34,14 +34,14 @@ Metrics compare(const Image& test, const Image& reference);
 // as zero.
 double expected_rmse(const Estimate& test, const Estimate& reference);
 
-// The mean over all pixels, its difference from that of the reference, and the error of the difference. If a picture's means have
-// errors of their own, these are used. Otherwise the standard errors of pixels add up in squares, or linearly if the picture says
-// that pixels are not independent. The channels of a pixel share their samples, so for a mean over channels their standard errors
-// add up linearly, and the interval has at least its nominal confidence.
+// The mean over all pixels, its difference from that of the reference, and the error of the difference. If a picture's
+// means have errors of their own, these are used. Otherwise the standard errors of pixels add up in squares, or
+// linearly if pixels are not independent. The channels of a pixel share their samples, so for a mean over channels
+// their standard errors add up linearly, and the interval has at least its nominal confidence.
 struct MeanDifference {
     double mean = 0.0, reference_mean = 0.0, difference = 0.0;
     double standard_error = 0.0;      // of the difference
-    double degrees_of_freedom = 0.0;  // Welch and Satterthwaite's; infinite if those of both pictures are
+    double degrees_of_freedom = 0.0;  // by Welch and Satterthwaite; infinite if those of both pictures are
     double half_width = 0.0;          // of the interval around `difference`
 };
 

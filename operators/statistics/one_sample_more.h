@@ -1,12 +1,10 @@
-// What n samples leave open, however well they agree. Samples that are stratified often meet something equally often in all
-// replicates although their expectation lies a little higher, and their spread does not show that. With D the largest minus the
-// smallest sample:
+// The uncertainty that n samples leave, however well they agree. Stratified samples often meet something equally often
+// in all replicates although their expectation lies a little higher, and their spread does not show that. The half
+// width of a 95% interval is at least h, with D the largest minus the smallest sample:
 //
-//     h = 3 D/n   if all replicates agree: the rule of three, as p, the probability of a sample that differs, is below 3/n with 95%
-//                 confidence: (1 − p)^n ≤ e^{−pn} = 0.05
+//     h = 3 D/n   if all replicates agree: the rule of three. The probability p of a sample that differs is below 3/n with 95%
+//                 confidence, as (1 − p)^n ≤ e^{−pn} = 0.05
 //     h = D/n     otherwise: one sample more or less
-//
-// is the half width of a 95% interval at least.
 #pragma once
 
 #include "operators/statistics/sample_ranges.h"
@@ -18,10 +16,10 @@
 namespace neumann {
 
 constexpr double rule_of_three = 2.995732273553991;  // −ln 0.05
-// Replicates agree to rounding; ranges are floats.
+// The tolerances within which replicates agree to rounding, and ranges, which are floats.
 constexpr double agreement = 1e-9, rounding_of_ranges = 1e-6;
 
-// D of a channel; 0 where it is rounding.
+// D of a channel; 0 if it is no more than rounding.
 inline double difference(const SampleRange& range, int c) {
     const double smallest = range.smallest[c], largest = range.largest[c], d = largest - smallest;
     return d > rounding_of_ranges * std::max(std::abs(smallest), std::abs(largest)) ? d : 0.0;

@@ -11,7 +11,8 @@ namespace neumann {
 
 namespace {
 
-// √(a / b), and 0/0 = 0. The sums are of numbers divided by the largest one, so that squares neither overflow nor underflow.
+// √(a / b), with 0/0 = 0. Callers divide the numbers by the largest one before they add up squares, so that these
+// neither overflow nor underflow.
 double root_of_ratio(double a, double b) { return a == 0.0 ? 0.0 : std::sqrt(a / b); }
 
 double largest(const Image& image) {

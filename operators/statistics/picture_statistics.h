@@ -11,17 +11,17 @@ struct MeanWithError {
     double interval() const;
 };
 
-// Mean over pixels and channels. A pixel's channels, and pixels that are not independent, are treated as fully correlated, which
-// can only overestimate the error. Degrees of freedom by Welch and Satterthwaite.
+// The mean over pixels and channels. A pixel's channels, and pixels that are not independent, are treated as fully
+// correlated, which can only overestimate the error. Degrees of freedom by Welch and Satterthwaite.
 MeanWithError picture_mean(const Estimate& estimate);
 
-// Means of each channel over pixels, and of all channels.
+// The mean of each channel over pixels, and the mean of all channels.
 struct PictureMeans {
     MeanWithError channel[3], all;
 };
 PictureMeans picture_means(const Estimate& estimate);
 
-// a − b, of independent means. Degrees of freedom by Welch and Satterthwaite.
+// The difference a − b of independent means. Degrees of freedom by Welch and Satterthwaite.
 MeanWithError difference(const MeanWithError& a, const MeanWithError& b);
 
 // √(Σ SE² / Σ mean²) over pixels and channels; 0 for a picture that is zero everywhere.

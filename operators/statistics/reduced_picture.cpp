@@ -7,7 +7,7 @@ namespace neumann {
 
 namespace {
 
-// `bounds`: the effect of one sample more or less is divided by the number of pixels.
+// `bounds` divides the mean once more by the number of pixels: it is the effect of one sample more or less.
 enum class Add { values, squares, bounds };
 
 Image box_means(const Image& picture, int factor, Add add) {

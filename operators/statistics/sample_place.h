@@ -14,7 +14,7 @@ struct SampleName {
     auto operator<=>(const SampleName&) const = default;
 };
 
-// A path from a light contributes to other pixels than its own.
+// The place is a pixel of its own because a path from a light contributes to other pixels than the one that names it.
 struct SamplePlace {
     std::uint32_t pixel = 0;
     SampleName name;

@@ -31,7 +31,7 @@ struct SampleRange {
     }
 };
 
-// Pixel by pixel, with all quantities of a pixel together. Empty if unknown.
+// The ranges of all pixels, with all quantities of a pixel together. Empty if unknown.
 struct SampleRanges {
     std::vector<SampleRange> of;
 

@@ -12,7 +12,7 @@ namespace neumann {
 
 namespace {
 
-// Offsets within a quantity's nine doubles.
+// Offsets within the nine doubles of a quantity.
 constexpr std::size_t mean_at = 0, term_m2_at = 3, sum_m2_at = 6, stride = PixelMoments::doubles_per_quantity;
 
 void merge_pictures(std::vector<double>& a, double na, const std::vector<double>& b, double nb, std::size_t doubles_per_pixel) {
@@ -129,7 +129,7 @@ SeriesMoments::Result SeriesMoments::result() const {
                                           return std::span(*node.data).subspan(pixel * stride_of_pixel, stride_of_pixel);
                                       };
                                       const auto sum = std::span(*merged).subspan(pixel * stride_of_pixel, stride_of_pixel);
-                                      // From the right, where the smallest nodes are.
+                                      // Nodes are merged from the right, where the smallest ones are.
                                       std::ranges::copy(of(nodes_.back()), sum.begin());
                                       double count = static_cast<double>(nodes_.back().count);
                                       for (std::size_t i = nodes_.size() - 1; i-- > 0;) {

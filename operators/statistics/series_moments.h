@@ -1,9 +1,10 @@
-// Means and variances of all pictures of a series: for every pixel the mean of each term and the second central moments of each
-// term and of each partial sum, over replicates.
+// Means and variances of all pictures of a series over replicates: for every pixel the mean of each term, and the
+// second central moments of each term and of each partial sum.
 //
-// Replicates are the leaves of one fixed binary tree (pairwise summation), whose nodes are the ranges [a·2^k, (a+1)·2^k). The
-// rounding therefore does not depend on how a run was divided: any ranges that cover the same replicates merge to the same bits.
-// Two sets are joined by Chan, Golub and LeVeque's formula (1983), under which equal means leave the variance exactly zero.
+// Replicates are the leaves of one fixed binary tree (pairwise summation), whose nodes are the ranges [a·2^k,
+// (a+1)·2^k). The rounding therefore does not depend on how a run was divided: any ranges that cover the same
+// replicates merge to the same bits. Two sets are joined by the formula of Chan, Golub and LeVeque (1983), under which
+// equal means leave the variance exactly zero.
 #pragma once
 
 #include "core/image/image.h"
@@ -17,14 +18,15 @@
 
 namespace neumann {
 
-// For one pixel: `quantities` terms (the last may be the rest), each with mean, M2 of the term, M2 of the sum up to it; RGB.
+// The layout of one pixel: `quantities` terms (the last may be the rest), each with its mean, M2 of the term, and M2 of
+// the sum up to it; RGB.
 class PixelMoments {
 public:
     static constexpr std::size_t doubles_per_quantity = 9;
 
     // Sets the node of one replicate: its means are given, its moments are zero.
     static void set(std::span<double> node, std::span<const Rgb> means);
-    // a ← a ∪ b, with na and nb replicates.
+    // a ← a ∪ b, where a and b have na and nb replicates.
     static void merge(std::span<double> a, double na, std::span<const double> b, double nb);
 };
 
@@ -35,7 +37,7 @@ struct MomentsNode {
     SampleRanges ranges = {};  // ranges of the samples; may be empty
 };
 
-// Any consecutive replicates, stored as the smallest number of nodes.
+// Consecutive replicates, stored as the smallest number of nodes.
 class SeriesMoments {
 public:
     struct Node {
@@ -44,19 +46,20 @@ public:
     };
 
     SeriesMoments(int width, int height, std::size_t quantities) : SeriesMoments(width, height, quantities, quantities) {}
-    // Of which only the first `pictures` are terms, and the others are the differences of these between two ways to make them,
-    // in the same order (Result::difference_of_term()); or all are.
+    // Only the first `pictures` quantities are terms. The others, if any, are the differences of these between two ways
+    // to make them, in the same order (Result::difference_of_term()).
     SeriesMoments(int width, int height, std::size_t quantities, std::size_t pictures)
         : width_(width), height_(height), quantities_(quantities), pictures_(pictures) {}
 
-    // `node` must start where the present replicates end. Returns memory that is free again, if any, for the next node.
+    // `node` must start where the present replicates end. Returns memory that has become free, if any, for the next
+    // node.
     std::vector<double> add(MomentsNode node);
     // `next` must start where these replicates end.
     void add(const SeriesMoments& next);
-    // `other` holds independent replicates of the same pictures, by another seed: both become one node, in which replicates have no
-    // numbers any more.
+    // `other` must hold independent replicates of the same pictures, with another seed. Both become one node, in which
+    // replicates no longer have numbers.
     void unite(const SeriesMoments& other);
-    // The nodes and ranges of other moments, as nodes() and ranges() tell them.
+    // Sets the nodes and ranges, as nodes() and ranges() of other moments return them.
     void set(std::vector<Node> nodes, SampleRanges ranges);
 
     std::uint64_t first() const { return nodes_.empty() ? 0 : nodes_.front().first; }
@@ -70,7 +73,7 @@ public:
     // Ranges of all samples; empty if they were not kept.
     const SampleRanges& ranges() const { return ranges_; }
 
-    // All nodes merged, for reading term() and sum(). If there is a single node, nothing is copied.
+    // All nodes merged, for reading term() and sum(). A single node is not copied.
     class Result;
     Result result() const;
 
@@ -86,17 +89,19 @@ private:
 
 class SeriesMoments::Result {
 public:
-    // Mean over n replicates, and its standard error √(M2 / (n (n−1))), of quantity i and of the sum of quantities 0 … i.
+    // The mean over n replicates, and its standard error √(M2 / (n (n−1))), of quantity i and of the sum of quantities
+    // 0 … i.
     Estimate term(std::size_t i) const { return estimate(i, false); }
     Estimate sum(std::size_t i) const { return estimate(i, true); }
 
-    // Means over pixels and channels. If pixels are not independent, the standard error is from the spread of whole replicates.
+    // Means over pixels and channels. If pixels are not independent, the standard error comes from the spread of whole
+    // replicates.
     MeanWithError mean_of_term(std::size_t i) const { return mean(i, false); }
     MeanWithError mean_of_sum(std::size_t i) const { return mean(i, true); }
     PictureMeans means_of_term(std::size_t i) const { return means(i, false); }
     PictureMeans means_of_sum(std::size_t i) const { return means(i, true); }
 
-    // The mean of what goes with term i, or with the sum up to it, if the moments have that.
+    // The means of the differences that belong to term i, or to the sum up to it, if the moments have differences.
     bool has_differences() const { return all_ > quantities_; }
     Image difference_of_term(std::size_t i) const { return differences(i, i); }
     // √(Σ SE²) of difference_of_term(i), over pixels and channels.

@@ -1,4 +1,3 @@
-// Quantiles and probabilities of Student's t distribution.
 #pragma once
 
 namespace neumann {

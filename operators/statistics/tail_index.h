@@ -1,5 +1,5 @@
-// Judges from the largest samples whether the variance is finite: if P(X > x) ~ x^−α with α ≤ 2 it is not, and intervals computed
-// from a variance do not hold.
+// Judges from the largest samples whether the variance is finite: it is not if P(X > x) ~ x^−α with α ≤ 2, and then
+// intervals computed from a variance do not hold.
 #pragma once
 
 #include "operators/statistics/sample_place.h"
@@ -23,7 +23,7 @@ public:
     }
     void add_count(std::uint64_t n) { count_ += n; }
     void merge(const LargestSamples& other);
-    // For a set that will be merged into `other`: samples that are too small for `other` need not be kept.
+    // `this` will be merged into `other`: samples that are too small for `other` need not be kept.
     void outdo(const LargestSamples& other) { outdo(other.threshold_); }
     void outdo(double threshold) { threshold_ = std::max(threshold_, threshold); }
     // add() ignores values up to this.
@@ -37,10 +37,11 @@ public:
         double value;
         SamplePlace place;
     };
-    // Those that are kept, in no order, and from them the set again.
+    // The samples that are kept, in no order. The constructor makes the set from them again.
     const std::vector<Sample>& kept() const { return heap_; }
     LargestSamples(std::uint64_t count, std::vector<Sample> kept);
-    // Largest first, without samples whose value equals that of samples not kept: among these, chance decided which were kept.
+    // The samples with the largest first, without those whose value equals that of samples not kept: among these,
+    // chance decided which were kept.
     std::vector<Sample> standing_out() const;
 
 private:
@@ -56,9 +57,9 @@ struct TailIndex {
     bool variance_is_infinite() const { return upper < 2.0; }
 };
 
-// Hill's estimate (1975) from the k largest of n samples, k = min(1000, n/200), and again from the k/4 largest: a power law has the
-// same index in both, while the tail of a bounded distribution falls faster further out. `upper` is infinite if the tail is seen to
-// end. Returns nothing if k < 400.
+// Hill's estimate (1975) from the k largest of n samples, k = min(1000, n/200), and again from the k/4 largest: a power
+// law has the same index in both, while the tail of a bounded distribution falls faster further out. `upper` is
+// infinite if the samples show that the tail ends. Returns nothing if k < 400.
 std::optional<TailIndex> tail_index(const LargestSamples& samples);
 
 }  // namespace neumann
