@@ -10,27 +10,28 @@
 
 namespace neumann {
 
-// Origin of a ray on the patch, and its direction on the square of cosine_hemisphere().
+// The origin of a ray on the patch, and its direction on the square of cosine_hemisphere().
 struct FacetRay {
     Vec2 point, direction;
 };
-// What a ray meets.
+// The place that a ray meets.
 struct Sight {
     std::uint32_t unknown;    // PatchSpace::nothing() if there is none
-    const SurfacePoint* hit;  // null if it meets no surface
+    const SurfacePoint* hit;  // null if the ray meets no surface
     Vec3 w;                   // direction of the ray
 };
-// All rays of a facet, one for each Sobol' point, ordered so that neighbours have similar directions: Embree is faster then.
+// All rays of a facet, one for each Sobol' point. They are ordered so that neighbours have similar directions, because
+// Embree is faster then.
 std::vector<FacetRay> facet_rays(const SobolPoints& sobol, std::uint64_t seed, std::uint32_t number);
 
-// How they are cast. So many `of_a_point`, a power of two up to the packet's size, start where the first of them does: points on a
-// fine mesh are in cold memory. `rough`: as Geometry::rough_hits().
+// How the rays are cast. In each packet, groups of `of_a_point` rays, a power of two up to the packet's size, share the
+// origin of their first ray: the points of a fine mesh are in cold memory. `rough` casts with Geometry::rough_hits().
 struct FacetRayCasting {
     std::size_t of_a_point = 1;
     bool rough = false;
 };
 
-// Casts the rays and calls f(u, sight) for each in order; u is the direction on its square.
+// Casts the rays and calls f(u, sight) for each in order; u is the direction on the square.
 template <class F>
 void for_rays_of_facet(const PatchSpace& space, const SobolPoints& sobol, std::uint64_t seed, std::uint32_t number,
                        const FacetRayCasting& casting, const F& f) {

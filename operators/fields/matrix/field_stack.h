@@ -1,5 +1,6 @@
-// All terms of a series on a patch space, stored unknown by unknown, so that a pixel reads all bounces from one place. Floats, for
-// pictures only; they are added up in doubles, because a pixel may read them ten million times.
+// All terms of a series on a patch space, stored unknown by unknown, so that a pixel reads all bounces from one place.
+// The values are floats, for pictures only; they are added up in doubles, because a pixel may read them ten million
+// times.
 #pragma once
 
 #include "operators/fields/matrix/patch_field.h"
@@ -20,7 +21,7 @@ public:
     const PatchSpace& space() const { return *space_; }
     // Three floats for each quantity.
     std::size_t stride() const { return stride_; }
-    // Of all unknowns, and of what is none.
+    // The values of all unknowns, and last those of PatchSpace::nothing().
     std::span<const float> values() const { return values_; }
     std::span<float> values() { return values_; }
     const float* operator[](std::uint32_t unknown) const { return values_.data() + unknown * stride_; }

@@ -38,7 +38,8 @@ const GaussRule& gauss(int n) {
     return rules[n];
 }
 
-// Gauss points per dimension for full double precision, from the ellipse in which the integrand is analytic.
+// The number of Gauss points per dimension for full double precision, from the ellipse in which the integrand is
+// analytic.
 int points_needed(const Parallelogram& a, const Parallelogram& b) {
     const auto reach = [](const Parallelogram& p) { return 0.5 * std::max(glm::length(p.u + p.v), glm::length(p.u - p.v)); };
     const auto half_edge = [](const Parallelogram& p) { return 0.5 * std::max(glm::length(p.u), glm::length(p.v)); };
@@ -115,7 +116,7 @@ std::optional<Pair> rectangles(const Parallelogram& a, const Parallelogram& b) {
     return Pair{false, range(a, b.corner, nb), range(a, a.corner, line), range(b, a.corner, na), range(b, a.corner, line), 0.0};
 }
 
-// (x² + y²) ln(x² + y²) and the like, 0 at 0.
+// factor · ln(square), or 0 if square is 0.
 Real log_term(Real factor, Real square) { return square > 0 ? factor * std::log(square) : 0; }
 
 Real parallel_corner(Real x, Real y, Real z) {
@@ -144,7 +145,7 @@ double in_closed_form(const Pair& pair) {
 
 // ---- which is which ----
 
-// Whether b has points in front of a's plane. Throws where it has some on both sides.
+// Whether b has points in front of a's plane. Throws if it has some on both sides.
 bool in_front(const Parallelogram& a, const Parallelogram& b) {
     const Vec3 n = a.normal();
     const double tolerance = 1e-12 * (glm::length(b.corner - a.corner) + glm::length(b.u) + glm::length(b.v));

@@ -17,7 +17,7 @@
 
 namespace neumann {
 
-// corner + s u + t v, 0 ≤ s, t ≤ 1; radiates and receives on the side of u × v. Lengths in scene units.
+// The points corner + s u + t v, 0 ≤ s, t ≤ 1; radiates and receives on the side of u × v. Lengths in scene units.
 struct Parallelogram {
     Vec3 corner, u, v;
 
@@ -26,11 +26,12 @@ struct Parallelogram {
     double area() const { return glm::length(glm::cross(u, v)); }
 };
 
-// nu × nv cells of a face; the cell (i, j) along u and v has index i nv + j.
+// The nu × nv cells of a face; the cell (i, j) along u and v has index i nv + j.
 std::vector<Parallelogram> cells(const Parallelogram& face, int nu, int nv);
 
-// A_a F_ab. Relative error about 10⁻¹⁵ for cells of similar size. 0 where one lies in or behind the other's plane. Throws
-// std::invalid_argument where a patch crosses the other's plane, has no area, or where a near pair has no closed form.
+// A_a F_ab, with a relative error of about 10⁻¹⁵ for cells of similar size; 0 if one lies in or behind the other's
+// plane. Throws std::invalid_argument if a patch crosses the other's plane or has no area, and if a near pair has no
+// closed form.
 double exchange_area(const Parallelogram& a, const Parallelogram& b);
 
 // Exchange areas of many pairs, cached: on grids of equal cells most pairs are congruent, and each kind is integrated once.
@@ -48,7 +49,8 @@ struct FormFactors {
     Vector area;
 };
 
-// Not renormalised: rows sum to 1, up to the accuracy of the integrals, if the patches enclose their room.
+// The form factors are not renormalised: rows sum to 1, up to the accuracy of the integrals, if the patches enclose
+// their room.
 FormFactors form_factors(const std::vector<Parallelogram>& patches);
 
 }  // namespace neumann

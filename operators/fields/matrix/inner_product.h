@@ -15,7 +15,7 @@ Channels<C> inner_product(const PatchSpace& space, const PatchField<Side, C>& f,
     return sum;
 }
 
-// The étendue of each unknown, with which these sums are ⟨f, g⟩ = Σ m_u f_u g_u.
+// The étendue m_u of each unknown: ⟨f, g⟩ = Σ m_u f_u g_u.
 inline Vector measure(const PatchSpace& space) {
     Vector m(space.size());
     for (const Facet& facet : space.facets()) m.segment(facet.first, facet.cells.size()).setConstant(space.measure(facet));

@@ -13,23 +13,23 @@ namespace neumann {
 
 struct TracedSettings;
 
-// Kept rows that cannot be used; the message names them.
+// Thrown if kept rows cannot be used; the message names them.
 class KeptRowsError : public InputError {
 public:
     using InputError::InputError;
 };
 
-// Of one table. A block is some facets and their rows, one after the other.
+// The kept rows of one ray table. A block is some facets and their rows, one after the other.
 class KeptRows {
 public:
     virtual ~KeptRows() = default;
 
-    // Hands over each block. `take` returns false if it is not of this table. Throws KeptRowsError.
+    // Hands over each block. `take` returns false if the block does not belong to this table. Throws KeptRowsError.
     virtual void read(
         const std::function<bool(std::span<const std::uint32_t> facets, std::span<const std::uint32_t> seen)>& take) = 0;
-    // Whether it is time to keep what was traced since the last time.
+    // Whether it is time to keep the rows that were traced since the last time.
     virtual bool is_due() const = 0;
-    // The rows come in pieces.
+    // Keeps the rows of some facets, which come in pieces.
     virtual void keep(std::span<const std::uint32_t> facets, const std::vector<std::span<const std::uint32_t>>& seen) = 0;
 };
 

@@ -11,7 +11,7 @@ namespace neumann {
 
 namespace {
 
-// Independent random numbers for each use of the seed.
+// Each use of the seed has independent random numbers.
 constexpr std::uint64_t direct_stream = 0x6469726563ull, emitted_stream = 0x656d697474ull;
 
 template <class Each>
@@ -103,7 +103,7 @@ IncidentVector<C> arriving_light(const Scene& scene, const ReflectionMatrix<C>& 
 }
 
 double rays_that_meet_lights(const Scene& scene, std::uint32_t rays) {
-    // Rays of patches cannot hit these.
+    // The rays of patches cannot hit these lights.
     if (scene.emitters.has_environment() || scene.emitters.has_delta_lights()) return 0.0;
     double all = 0.0, lights = 0.0;
     for (std::uint32_t shape = 0; shape < scene.geometry.shapes().size(); ++shape) {

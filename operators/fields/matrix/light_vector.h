@@ -1,4 +1,5 @@
-// The first terms of the series on a patch space: Le, and b = K Le by light sampling if the rays of T would hardly hit the lights.
+// The first terms of the series on a patch space: Le, and b = K Le by light sampling if the rays of T would hardly hit
+// the lights.
 #pragma once
 
 #include "core/scene/scene.h"
@@ -7,19 +8,19 @@
 
 namespace neumann {
 
-// The mean of Le over each patch and cell of directions; 0 at other facets.
+// The mean of Le over each patch and cell of directions; 0 at facets that are not in `facets`.
 template <int C>
 ExitantVector<C> emitted_light(const Scene& scene, const PatchSpace& space, const SomeFacets& facets = {});
 
-// T Le, the g in K Le = R g, where R is not 0. Its means over the cells are estimated with `samples` pairs of a point on the facet
-// and one on a light: Σ Le V G / pdf / (projected solid angle of the cell).
+// T Le, the g in K Le = R g, at facets where R is not 0. Its means over the cells are estimated with `samples` pairs of
+// a point on the facet and one on a light: Σ Le V G / pdf / (projected solid angle of the cell).
 template <int C>
 IncidentVector<C> arriving_light(const Scene& scene, const ReflectionMatrix<C>& R, std::uint32_t samples, std::uint64_t seed,
                                  const SomeFacets& facets = {});
 
-// Expected number of a facet's rays that hit a light, if every point of the scene were hit with equal probability.
+// The expected number of a facet's rays that hit a light, if every point of the scene were hit with equal probability.
 double rays_that_meet_lights(const Scene& scene, std::uint32_t rays);
-// With at least this many, K Le is computed with T instead of light sampling.
+// If at least this many rays of a facet hit a light, K Le is computed with T instead of light sampling.
 constexpr double enough_rays = 8.0;
 
 }  // namespace neumann

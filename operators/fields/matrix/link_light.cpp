@@ -5,7 +5,7 @@
 
 namespace neumann {
 
-// What the paths of a part bring.
+// The results of the paths of a part.
 struct LinkShares {
     struct Share {
         std::uint32_t unknown;
@@ -28,14 +28,15 @@ struct LinkShares {
 
 namespace {
 
-// Independent random numbers for each use of the seed.
+// Each use of the seed has independent random numbers.
 constexpr std::uint64_t pilot_stream = 0x6c696e6b70696cull, light_stream = 0x6c696e6b6c69ull;
 constexpr std::uint32_t least_net = 8, largest_net = 4096;
 constexpr double pilot_share = 1.0 / 16.0;
-// Of the samples, which are spread evenly over all reflectors. A pilot can miss a spot of sun on one of them, and its light would
-// come as a few samples of any weight; so no sample weighs more than so many even ones.
+// The part of the samples that is spread evenly over the area of all reflectors. The pilot can miss a spot of sun on a
+// reflector, whose light would then come as a few samples of any weight; with this part no sample weighs more than 1 /
+// even_share times what an even one would.
 constexpr double even_share = 0.25;
-// Rays of a sample: to the light, and of the links.
+// The approximate number of rays of a sample: the shadow ray, and those of the links.
 constexpr double rays_of_sample = 4.0;
 
 LinkShares trace(const LinkLight& light, std::size_t part, const PatchSpace& space, int bounces) {
@@ -44,7 +45,7 @@ LinkShares trace(const LinkLight& light, std::size_t part, const PatchSpace& spa
     found.rays = light.trace(part, found.power, [&](const LinkArrival& a) {
         const Facet& facet = space.facets()[space.facet_of(a.unknown)];
         const double etendue = space.patches().area(facet.patch) * pi / facet.cells.size() * a.index * a.index;
-        // Power that falls on a surface is reflected by the cosine with the shading normal.
+        // Reflection weights the power that falls on a surface by the cosine with the shading normal.
         const double cosine = glm::dot(space.frame(facet, a.x).n, a.wi), of_surface = std::abs(glm::dot(a.x.normal, a.wi));
         if (!(cosine > 0.0)) return;
         found.shares.push_back(
@@ -74,7 +75,7 @@ void LinkLight::find_reflectors(const Scene& scene) {
                 reflectors_.push_back({patch, front});
 }
 
-// Samples in proportion to the power that a few of them find, and a part by area.
+// Distributes the samples in proportion to the power that a few of them find, and partly by area.
 void LinkLight::divide(double samples, std::uint64_t seed) {
     const auto net_of = [](double wanted) {
         return std::bit_ceil(static_cast<std::uint32_t>(std::clamp(wanted, double{least_net}, double{largest_net})));

@@ -1,6 +1,6 @@
-// Light that comes to sides with unknowns by links (links.h): through glass, off mirrors. The rays of T rarely find small lamps
-// that way and never lights without extent, so it is traced from the lights: to points on the sides that reflect it on, and from
-// there on as power. The patches that receive most get most samples.
+// Light that reaches sides with unknowns by links (links.h), through glass or off mirrors. The rays of T rarely find
+// small lamps that way, and never lights without extent, so this light is traced from the lights: light samples at
+// points on the sides without unknowns, and from there on as power. The patches that receive most get most samples.
 #pragma once
 
 #include "core/emitter/light_sampler.h"
@@ -19,35 +19,36 @@
 
 namespace neumann {
 
-// What a path brings to its end.
+// The end of a path at a side with unknowns.
 struct LinkArrival {
     const SurfacePoint& x;
-    Vec3 wi;                // to where it comes from
-    std::uint32_t unknown;  // of x and wi
-    std::size_t bounce;     // in which it is reflected at x: 1 + its links
+    Vec3 wi;                // to where the light comes from
+    std::uint32_t unknown;  // the unknown of x and wi
+    std::size_t bounce;     // the bounce in which the light is reflected at x: 1 + the number of links
     Rgb power;              // W
-    double index;           // n at x
+    double index;           // refractive index at x, if it is 1 where the path begins
 };
 
-// About as many rays as T would have if all patches had unknowns: those that light goes on from have none, and may be most.
+// The number of rays for LinkLight: about as many as T would have if all patches had unknowns, because those from which
+// the light goes on have none, and may be most.
 inline double rays_of_links(const PatchSpace& space, std::uint32_t rays_of_facet) {
     return static_cast<double>(std::max(space.facets().size(), space.patches().size())) * rays_of_facet;
 }
 
 class LinkLight {
 public:
-    // `rays`: approximate number of rays. Keeps references to the scene and the space.
+    // `rays` is the approximate number of rays. Keeps references to the scene and the space.
     LinkLight(const Scene& scene, const PatchSpace& space, double rays, std::uint64_t seed, int bounces);
 
-    // Their number.
+    // The number of paths.
     std::uint64_t paths() const {
         std::uint64_t sum = 0;
         for (const Part& part : parts_) sum += part.net;
         return sum;
     }
-    // The paths are traced in parts, which are independent. Calls trace(part) for several at the same time and add(…) with what
-    // that returns in the order of the parts, so that sums are the same bits on any number of threads. Throws Stopped if `watch`
-    // stops it. With `rows`, each process traces some parts, and all add all.
+    // The paths are traced in parts, which are independent. Calls trace(part) for several parts at the same time, and
+    // add(…) with the results in the order of the parts, so that sums have the same bits on any number of threads.
+    // Throws Stopped if `watch` stops it. With `rows`, each process traces some parts, and all processes add all.
     template <class Trace, class Add>
     void for_parts(const Trace& trace, const Add& add, const Watch& watch = {}, const RowShare* rows = nullptr) const {
         constexpr std::size_t at_once = 64;
@@ -64,8 +65,8 @@ public:
             for (std::size_t i = 0; i < n; ++i) add(found[i]);
         }
     }
-    // Traces the paths of a part. Calls arrive(LinkArrival) for those that end at an unknown, and adds the power that is on its way
-    // in the bounces 0, 1, … to `power`, without what arrives. Returns the number of rays cast.
+    // Traces the paths of a part. Calls arrive(LinkArrival) for those that end at an unknown, and adds the power on its
+    // way in the bounces 0, 1, … to `power`, without the power that arrives. Returns the number of rays cast.
     template <class Arrive>
     std::uint64_t trace(std::size_t part, std::span<PowerOfTerm> power, const Arrive& arrive) const {
         const Part& p = parts_[part];
@@ -105,7 +106,7 @@ private:
     };
     struct Part {
         std::uint32_t reflector, first, net;  // samples first … first + net − 1
-        std::uint32_t samples;                // of the reflector
+        std::uint32_t samples;                // all samples of the reflector
     };
     // R* at a link, with the change of the refractive index.
     struct Reflection {
@@ -118,7 +119,8 @@ private:
             return {s.wo, s.weight, passes ? refractive_ratio(*side.bsdf) : 1.0};
         }
     };
-    // Calls each(x, w, power) with the power, W per sample, that arrives at a point of the reflector from the direction w.
+    // Calls each(x, w, power) with the power, in W per sample, that arrives at a point x of the reflector from the
+    // direction w.
     template <class Each>
     void light(const Reflector& reflector, Sampler& sampler, std::uint32_t first, std::uint32_t count, double samples,
                const Each& each) const {
@@ -148,10 +150,10 @@ private:
 
 template <int C>
 struct ArrivingByLinks {
-    // Incident radiance that is reflected in bounce k = 1 … N, mean over each cell. The last entry, N + 1, is for all later bounces
-    // together; entry 0 is zero, and entry 1 too if N > 0.
+    // Mean incident radiance over each cell that is reflected in bounce k = 1 … N. The last entry, N + 1, is for all
+    // later bounces together; entry 0 is zero, and entry 1 too if N > 0.
     std::vector<IncidentVector<C>> radiance;
-    std::vector<PowerOfTerm> power;  // of the bounces 0 … N, on its way
+    std::vector<PowerOfTerm> power;  // on its way in the bounces 0 … N
     std::uint64_t rays = 0;
 };
 

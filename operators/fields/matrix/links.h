@@ -1,5 +1,5 @@
-// Rays go on from sides without unknowns, which are mirrors, glass and whatever else is not diffuse, until they meet a side that
-// has unknowns: each such reflection is a link.
+// Rays that go on from sides without unknowns, which are mirrors, glass and whatever else is not diffuse, until they
+// meet a side that has unknowns. Each such reflection is a link.
 #pragma once
 
 #include "core/sampling/sampler.h"
@@ -13,14 +13,14 @@ namespace neumann {
 
 class Links {
 public:
-    // A ray of more than `bounces` links is ended by Russian roulette. Keeps references to the scene and the space.
+    // A ray with more than `bounces` links is ended by Russian roulette. Keeps references to the scene and the space.
     Links(const Scene& scene, const PatchSpace& space, int bounces)
         : scene_(&scene), space_(&space), bounces_(static_cast<std::uint32_t>(std::max(bounces, 0))) {}
 
-    // Follows a ray that has met x along w. `Reflection::sample(materials, side, back, u)` samples where it goes on, with `back`
-    // the direction to where it came from: wi, weight, and index as in BasicReflection. Calls each(weight) at every link, with the
-    // product of the weights so far, and end(hit, w, unknown, index) if the ray meets an unknown along w, with the product of the
-    // indices.
+    // Follows a ray that has met x along w. `Reflection::sample(materials, side, back, u)` samples how it goes on,
+    // where `back` is the direction to where it came from, and returns wi, weight and index as in BasicReflection.
+    // Calls each(weight) at every link with the product of the weights so far, and end(hit, w, unknown, index) if the
+    // ray meets an unknown along w, with the product of the indices.
     template <class Reflection, class Each, class End>
     void follow(SurfacePoint x, Vec3 w, Sampler& sampler, const Each& each, const End& end) const {
         Rgb weight(1.0);
@@ -50,7 +50,7 @@ public:
     }
 
 private:
-    // Between mirrors that absorb nothing roulette never ends a ray.
+    // This limit is needed because Russian roulette never ends a ray between mirrors that absorb nothing.
     static constexpr std::uint32_t most_links = 1000;
 
     const Scene* scene_;

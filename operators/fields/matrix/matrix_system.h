@@ -1,5 +1,5 @@
-// A scene as matrices, as `solve` and `spectrum` see it: one process has all of it (traced_system.h), or several share it
-// (operators/fields/shared/shared_system.h), and then vectors hold the values of a process's own unknowns.
+// A scene as matrices, for `solve` and `spectrum`. Either one process has all of it (traced_system.h), or several share
+// it (operators/fields/shared/shared_system.h), and then vectors hold the values of a process's own unknowns.
 #pragma once
 
 #include "core/base/memory.h"
@@ -18,7 +18,7 @@ struct TracedSettings {
     std::uint32_t rays = 64;     // per facet; a power of two. Also the number of light samples per facet
     std::uint64_t seed = 0;
     double memory = default_memory();  // approximate limit in bytes
-    RowStore* store = nullptr;         // of the rows of T, while it is traced; null: they are not kept
+    RowStore* store = nullptr;         // keeps the rows of T while it is traced; null if they are not kept
 
     std::unique_ptr<KeptRows> kept() const { return store ? store->rows_of(*this) : nullptr; }
 };
@@ -49,13 +49,14 @@ public:
     // b = K Le, by light sampling if the rays of T hardly hit the lights.
     virtual Vector direct(int c) const = 0;
 
-    // K of a channel, and T alone: a row of T is the mean over its rays, so T 1 = 1 in a closed scene. Both refer to this object.
+    // reflected() is K of a channel. transported() is T alone: a row of T is the mean over its rays, so T 1 = 1 in a
+    // closed scene. Both refer to this object.
     virtual std::unique_ptr<ChannelOperator> reflected(int c) const = 0;
     virtual std::unique_ptr<ChannelOperator> transported() const = 0;
     virtual OperatorNorms norms(const ChannelOperator& K, const EigenLimits& limits) const = 0;
     virtual Eigenpairs leading(const ChannelOperator& K, int count, const EigenLimits& limits) const = 0;
-    // Standard error of (K* 1)_u for the unknown OperatorNorms::one_at, estimated by the rays that hit it; and the part of all
-    // measure that it has.
+    // `error` is the standard error of (K* 1)_u for the unknown u = OperatorNorms::one_at, estimated by the rays that
+    // hit it, and `part` is u's part of the whole measure.
     struct PowerError {
         double error = 0.0, part = 0.0;
     };

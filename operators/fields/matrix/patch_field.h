@@ -1,7 +1,7 @@
-// Fields on a patch space: exitant radiance, and incident radiance in the cells of directions, with one value per unknown. They
-// have different types, like functions (operators/pointwise/field.h): T maps exitant to incident fields and R maps them back. All
-// colour channels are stored together. C is 1 if the scene is grey, otherwise 4; the fourth channel is zero and makes a column one
-// SIMD load of doubles.
+// Fields on a patch space, with one value per unknown: exitant radiance, and incident radiance in the cells of
+// directions. They have different types, like functions (operators/pointwise/field.h): T maps exitant to incident
+// fields and R maps them back. All colour channels are stored together. C is 1 if the scene is grey, otherwise 4; the
+// fourth channel is zero and makes a column one SIMD load of doubles.
 #pragma once
 
 #include "core/base/vec.h"
@@ -30,8 +30,8 @@ Rgb to_rgb(const Channels<C>& c) {
         return Rgb(c[0], c[1], c[2]);
 }
 
-// One column per unknown, and a last one for PatchSpace::nothing(), which stays zero. Basic radiance, W·m⁻²·sr⁻¹. To change the
-// side of values, write it out: ExitantVector<C>(std::move(f).values()).
+// One column per unknown, and a last one for PatchSpace::nothing(), which stays zero. The values are basic radiance,
+// W·m⁻²·sr⁻¹. A change of side must be explicit: ExitantVector<C>(std::move(f).values()).
 template <class Side, int C>
 class PatchField {
 public:
@@ -39,7 +39,7 @@ public:
 
     static PatchField zero(std::uint32_t unknowns) { return PatchField(Values(Values::Zero(C, Eigen::Index{unknowns} + 1))); }
     explicit PatchField(Values values) : values_(std::move(values)) {}
-    // For one channel: conversion from and to a value for each unknown.
+    // A field of one channel converts from and to a Vector.
     template <std::same_as<Vector> V>
     explicit PatchField(const V& x) requires(C == 1) : values_(1, x.size() + 1) {
         values_ << x.transpose().array(), 0.0;
@@ -70,7 +70,7 @@ public:
         f.values_ *= a;
         return f;
     }
-    // A factor for each channel.
+    // `a` has a factor for each channel.
     friend PatchField operator*(const Channels<C>& a, PatchField f) {
         f.values_.colwise() *= a;
         return f;

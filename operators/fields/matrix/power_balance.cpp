@@ -25,7 +25,7 @@ PowerBalance<C>::PowerBalance(const RayTable& table, const ReflectionMatrix<C>& 
     const auto size = static_cast<Eigen::Index>(space.size()) + 1;
     emitted_ = left_ = caught_ = ExitantVector<1>::Values::Zero(1, size);
     absorbed_ = kept_ = ExitantVector<C>::Values::Zero(C, size);
-    // Row sums of a block: directional albedos for ρ = 1.
+    // The row sums of a block are the directional albedos for ρ = 1.
     std::map<const ReflectionBlock::Matrix*, Eigen::VectorXd> sums;
     const auto row_sums = [&](const ReflectionBlock::Matrix* block) -> const Eigen::VectorXd& {
         auto [place, is_new] = sums.try_emplace(block);
@@ -53,7 +53,7 @@ PowerBalance<C>::PowerBalance(const RayTable& table, const ReflectionMatrix<C>& 
             }
         }
     }
-    // What goes on by a chain has not left.
+    // The power that goes on by a chain has not left the scene.
     for (const Chain& chain : chains.all()) left_(0, chain.from) -= emitted_(0, chain.from) * double{chain.share};
 }
 

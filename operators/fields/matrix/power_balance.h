@@ -1,10 +1,11 @@
-// Where the power of a field on patches goes. Of the power that leaves the unknowns, the rays of T that see them catch some, and
-// the rest hits nothing. Of the power that arrives, the directional albedo of its cell is reflected. R conserves power to rounding,
-// T only in expectation, because the rays that see a facet and the facet's own rays are two different estimates. What a chain
-// (chains.h) takes from a side that has unknowns, it carries from link to link, in one bounce each.
+// Balances the power of a field on patches. Of the power that leaves the unknowns, the rays of T that see them catch
+// some, and the rest hits nothing. Of the power that arrives, the directional albedo of its cell is reflected. R
+// conserves power to rounding, T only in expectation, because the rays that see a facet and the facet's own rays are
+// two different estimates. A chain (chains.h) carries the power that it takes from a side with unknowns from link to
+// link, one bounce each.
 //
-// Where several processes have rows of T, each finds what starts, arrives and is seen from its own: the sum over them is the
-// balance.
+// If several processes share the rows of T, each adds the power that its own rows start, receive and see: the sum over
+// the processes is the balance.
 #pragma once
 
 #include "operators/fields/matrix/chains.h"
@@ -15,7 +16,7 @@
 
 namespace neumann {
 
-// W, mean of the channels. Of one term.
+// The power of one term in W, as the mean of the channels.
 struct PowerOfTerm {
     double emitted = 0.0;   // leaves surfaces
     double left = 0.0;      // part of `emitted` that hits nothing, or sides that neither reflect nor emit
@@ -37,18 +38,19 @@ public:
     // Keeps references to the chains.
     PowerBalance(const RayTable& table, const ReflectionMatrix<C>& R, const Chains& chains);
 
-    // Adds the power of term k to entry k, and of what its chains carry on to later entries.
+    // Adds the power of term k to entry k, and the power that its chains carry on to later entries.
     void add(std::size_t k, const ExitantVector<C>& term, std::vector<PowerOfTerm>& power) const;
-    // The power of what arrives: `caught` and `absorbed`.
+    // The power that arrives, in `caught` and `absorbed`.
     PowerOfTerm arriving(const IncidentVector<C>& means) const;
 
 private:
     const PatchSpace* space_;
     const Chains* chains_;
     std::uint32_t begin_, end_;  // unknowns [begin_, end_) have rows
-    // The contribution of one unit of radiance of each unknown.
+    // Contributions to the balance of one unit of radiance of each unknown.
     typename ExitantVector<1>::Values emitted_, left_, caught_;
-    typename ExitantVector<C>::Values absorbed_, kept_;  // kept_: the part that is absorbed of what arrives in each unknown's cell
+    typename ExitantVector<C>::Values absorbed_, kept_;  // kept_ is the absorbed part of the power that arrives in each unknown's
+                                                         // cell
 };
 
 extern template class PowerBalance<1>;

@@ -1,4 +1,4 @@
-// The kernel of T: the mean of what the rays of a cell of directions see.
+// The kernel of T: the mean radiance along the rays of a cell of directions.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,6 @@
-// T as a table of the unknown that each ray of each facet sees. A facet's rays have origins stratified over its area and directions
-// stratified by projected solid angle; they are ordered by cell of directions, with the same number in each cell. One ray has the
-// étendue area · π / rays, times n². The table depends on the seed, not on the number of threads.
+// T as a table of the unknown that each ray of each facet sees. A facet's rays have origins stratified over its area
+// and directions stratified by projected solid angle; they are ordered by cell of directions, with the same number in
+// each cell. One ray has the étendue n² · area · π / rays. The table depends on the seed, not on the number of threads.
 #pragma once
 
 #include "core/base/large_array.h"
@@ -17,15 +17,16 @@ namespace neumann {
 
 class RayTable {
 public:
-    // `rays`: per facet, as in RowsToTrace; a power of two. Keeps a reference to the space. Throws Stopped if `watch` stops it.
+    // `rays` is the number of rays per facet as in RowsToTrace, a power of two. Keeps a reference to the space. Throws
+    // Stopped if `watch` stops it.
     RayTable(const PatchSpace& space, std::uint32_t rays, std::uint64_t seed, const Watch& watch = {},
              const std::function<void(const BlindRay&)>& on_blind_ray = {})
         : RayTable(RowShare(space), rays, seed, watch, on_blind_ray) {}
-    // The rows of a process alone; those of others are empty. For all processes together, which all throw Stopped if one does.
-    // `rough`: as Geometry::rough_hits().
+    // Traces only the rows of this process; the rows of others are empty. All processes construct it together, and all
+    // throw Stopped if one does. `rough` casts with Geometry::rough_hits().
     RayTable(const RowShare& own, std::uint32_t rays, std::uint64_t seed, const Watch& watch,
              const std::function<void(const BlindRay&)>& on_blind_ray, KeptRows* kept = nullptr, bool rough = false);
-    // The number of rays that such a table has in all.
+    // The number of rays that such a table has on all processes together.
     static std::size_t size(const PatchSpace& space, std::uint32_t rays);
 
     const PatchSpace& space() const { return *space_; }
@@ -37,14 +38,14 @@ public:
         return {seen_.get() + first_[facet], seen_.get() + first_[facet + 1]};
     }
     std::span<const std::uint32_t> seen() const { return {seen_.get(), first_.back()}; }
-    // The same for the rays in the cell of directions of one unknown.
+    // The unknowns seen by the rays in the cell of directions of one unknown.
     std::span<const std::uint32_t> row_of_cell(std::uint32_t unknown) const {
         const std::uint32_t f = space_->facet_of(unknown);
         const Facet& of = space_->facets()[f];
         const std::size_t each = row(f).size() / of.cells.size();
         return row(f).subspan((unknown - of.first) * each, each);
     }
-    // Index of the facet's first ray in seen(). For facet = number of facets: the end.
+    // The index in seen() of the facet's first ray; for facet = number of facets, the end.
     std::size_t first_ray(std::uint32_t facet) const { return first_[facet]; }
     // The unknown in whose cell of directions a ray of the facet lies.
     std::uint32_t arrives_in(std::uint32_t facet, std::size_t ray) const {

@@ -17,8 +17,8 @@ using Index = Eigen::Index;
 
 }  // namespace
 
-// Minimises ½ dᵀ A d − row_sumsᵀ log d, which is convex in log d and whose gradient vanishes at the solution: first a few sweeps,
-// then Newton's method, because the sweeps are slow for glass.
+// Minimises ½ dᵀ A d − row_sumsᵀ log d, which is convex in log d and whose gradient vanishes at the solution. Newton's
+// method follows a few sweeps, because the sweeps are slow for glass.
 void scale_symmetrically(ReflectionBlock::Matrix& A, const Eigen::VectorXd& row_sums) {
     constexpr int most_sweeps = 100, most_steps = 40;
     const Index n = A.rows();
@@ -76,7 +76,7 @@ std::vector<std::vector<Rgb>> ReflectionBlock::sampled_rows(std::span<const Side
             if (s.wi.z > 0.0)
                 rows[i][here.first + here.cells.cell(s.wi)] += weight;
             else if (s.wi.z < 0.0 && sides.size() == 2)
-                rows[i][there.first + there.cells.cell({s.wi.x, -s.wi.y, -s.wi.z})] += weight * basic;  // in Frame(−n)
+                rows[i][there.first + there.cells.cell({s.wi.x, -s.wi.y, -s.wi.z})] += weight * basic;  // in the frame Frame(−n)
         }
     });
     return rows;
@@ -104,7 +104,7 @@ void ReflectionBlock::build(std::span<const Side> sides) {
                 const double mean = 0.5 * (etendue[i] * rows[i][j][c] + etendue[j] * rows[j][i][c]);
                 if (mean > 0.0) entries.emplace_back(static_cast<int>(i), static_cast<int>(j), mean);
             }
-        // A sampled mean albedo must not exceed the largest albedo.
+        // A mean albedo must not exceed the largest albedo, as a sampled one may.
         for (const Side& side : sides) {
             auto of_side = albedo.segment(side.first, side.cells.size()).array();
             of_side = of_side.min(largest_basic_albedo(side.bsdf)[c]);

@@ -24,21 +24,21 @@ class ReflectionBlock {
 public:
     using Matrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
-    // The identity.
+    // The identity block.
     explicit ReflectionBlock(DirectionCells cells);
-    // For a side that does not transmit light, or beyond which there is nothing. The factor ρ is left out.
+    // The block of a side that does not transmit light, or beyond which there is nothing. The factor ρ is left out.
     ReflectionBlock(const Bsdf& bsdf, DirectionCells cells);
-    // For both sides of a material that transmits light.
+    // The block of both sides of a material that transmits light.
     ReflectionBlock(const Bsdf& front, DirectionCells front_cells, const Bsdf& back, DirectionCells back_cells);
 
-    // The block of a colour channel.
+    // The matrix of a colour channel.
     const Matrix& matrix(int channel) const { return matrices_[matrices_.size() == 1 ? 0 : static_cast<std::size_t>(channel)]; }
 
 private:
     struct Side {
         Bsdf bsdf;
         DirectionCells cells;
-        std::uint32_t first;  // its first cell
+        std::uint32_t first;  // number of its first cell
         double index;         // refractive index, up to a common factor
     };
     static std::vector<std::vector<Rgb>> sampled_rows(std::span<const Side> sides);

@@ -17,7 +17,8 @@
 
 namespace neumann {
 
-// A material's block, placed in R: its rows and columns begin with the unknown `first`. A null pointer stands for 1.
+// A material's block and its place in R: its rows and columns begin with the unknown `first`. A null pointer stands for
+// 1.
 struct FacetBlock {
     std::shared_ptr<const ReflectionBlock> block;
     std::uint32_t first = 0;
@@ -71,7 +72,8 @@ public:
     bool goes_with_front(std::uint32_t facet) const {
         return block(facet) && first_of_block(facet) != space_->facets()[facet].first;
     }
-    // Applies the block of a facet in place to the values of its cells; those of the back follow if they share it.
+    // Applies the block of a facet in place to the values of its cells. If the back shares the block, the values of its
+    // cells follow.
     void reflect_cells(std::uint32_t facet, double* values) const;
 
 private:

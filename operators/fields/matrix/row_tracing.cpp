@@ -17,12 +17,12 @@ namespace neumann {
 
 namespace {
 
-// Where rows are kept: so many rays, and so many facets for each thread, are traced at least between one look at the clock and the
-// next.
+// If rows are kept, at least so many rays, and so many facets for each thread, are traced between two looks at the
+// clock.
 constexpr std::size_t rays_of_part = std::size_t{1} << 18, facets_of_thread = 8;
-// The most rays of a block of kept rows, 256 MB.
+// The largest number of rays in a block of kept rows, 256 MB.
 constexpr std::size_t rays_of_block = std::size_t{1} << 26;
-// Kept rows that are traced again, to see whether they are still the same.
+// The number of kept rows that are traced again to see whether they are still the same.
 constexpr std::size_t rows_compared = 16;
 
 using SobolByRays = std::map<std::uint32_t, SobolPoints>;  // by number of rays
@@ -42,7 +42,7 @@ NEUMANN_HOT void trace_row(const RowsToTrace& rows, const SobolPoints& sobol, st
     });
 }
 
-// Puts the rows that are kept in their places and returns the others, by their numbers among rows.facets.
+// Copies the kept rows to their places and returns the others, by their numbers among rows.facets.
 std::vector<std::uint32_t> rows_to_trace(const RowsToTrace& rows, KeptRows* kept, std::uint32_t* seen) {
     constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
     std::vector<bool> is_there(rows.facets.size());
@@ -71,7 +71,7 @@ std::vector<std::uint32_t> rows_to_trace(const RowsToTrace& rows, KeptRows* kept
     return others;
 }
 
-// Other programs and processors may trace other rays.
+// Compares some kept rows, because other programs and processors may trace other rays.
 void expect_same_rays(const RowsToTrace& rows, const SobolByRays& sobol, std::span<const std::uint32_t> to_trace,
                       const std::uint32_t* seen) {
     const std::size_t count = rows.facets.size(), step = std::max<std::size_t>(count / rows_compared, 1);
@@ -108,7 +108,8 @@ void keep_rows(const RowsToTrace& rows, std::span<const std::uint32_t> which, co
     keep();
 }
 
-// The number of parts in which they are traced, the same on all processes: these ask each other after each whether one was stopped.
+// The number of parts in which the rows are traced, the same on all processes: after each part, these ask each other
+// whether one was stopped.
 std::size_t parts_of(const RowsToTrace& rows, const RowTracing& how, std::size_t to_trace) {
     if (!how.kept) return how.are_shared ? 16 : 1;
     const auto threads = static_cast<std::size_t>(oneapi::tbb::this_task_arena::max_concurrency());
@@ -160,7 +161,7 @@ void trace_rows(const RowsToTrace& rows, const RowTracing& how, std::uint32_t* s
             is_kept = done;
         }
         if (!is_end) continue;
-        how.others.any(false);  // all have kept theirs before one ends them all
+        how.others.any(false);  // all processes have kept their rows before the exception of one ends them all
         throw Stopped();
     }
 }

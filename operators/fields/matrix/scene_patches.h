@@ -1,5 +1,5 @@
-// The patches of a scene. The patches hold basic radiance L/n², which equals the radiance of lights and pixels only if these are
-// outside of glass, where n = 1.
+// The patches of a scene. They hold basic radiance L/n², which equals the radiance of lights and pixels only if these
+// are outside of glass, where n = 1.
 #pragma once
 
 #include "core/scene/scene.h"

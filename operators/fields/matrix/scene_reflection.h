@@ -1,4 +1,5 @@
-// R on the patches of a scene, with one channel where it is grey and four elsewhere. It needs no ray, so all replicates share it.
+// R on the patches of a scene, with one channel if the scene is grey and four otherwise. It needs no ray, so all
+// replicates share it.
 #pragma once
 
 #include "operators/fields/matrix/reflection_matrix.h"

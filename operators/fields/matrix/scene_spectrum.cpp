@@ -16,7 +16,7 @@ namespace neumann {
 
 namespace {
 
-// Bounces are counted until this part of the power is left, well below what is asked for.
+// Bounces are counted until this part of the power is left, well below the parts in SceneSpectrum::remaining.
 constexpr double power_left = 1e-6;
 
 constexpr const char* trapped_light =
@@ -28,7 +28,7 @@ public:
     SearchTime(const SpectrumLimits& limits, const Watch& watch) : limits_(limits), watch_(watch) {}
 
     double left() const { return std::max(limits_.seconds - clock_.seconds(), 0.0); }
-    // Limits for a search that may take this fraction of the time left.
+    // The limits for a search that may take this fraction of the time left.
     EigenLimits part(double part, const std::string& what) const {
         EigenLimits limits;
         limits.most = limits_.most;

@@ -1,5 +1,5 @@
-// The spectrum of a scene: for each colour channel of its K norms, leading eigenvalues, whether and how fast the series converges,
-// and how much of that patches and rays make.
+// The spectrum of a scene: for each colour channel of K its norms and leading eigenvalues, whether and how fast the
+// series converges, and how much of that is an effect of patches and rays.
 #pragma once
 
 #include "operators/fields/matrix/refinement.h"
@@ -18,15 +18,15 @@ struct ChannelSpectrum {
     const char* name = "";
     double largest_albedo = 0.0;
     OperatorNorms norms;
-    MatrixSystem::PowerError one;  // of ‖K‖₁
+    MatrixSystem::PowerError one;  // the error of ‖K‖₁
     Eigenpairs leading;
     std::optional<Eigenpairs> by_slepc;
     double radius = 0.0, shift = 0.0;    // spectral radius, and how far it moves when patches or rays are quartered
-    std::optional<RadiusBounds> bounds;  // of the radius, if the eigenvalues were not found
+    std::optional<RadiusBounds> bounds;  // bounds on the radius, if the eigenvalues were not found
     Convergence convergence = Convergence::undecided;
     std::array<std::optional<int>, 3> bounces;       // number of bounces until the part `remaining` is left
     bool bounces_stopped = false;                    // time ran out before they were known
-    std::array<double, 2> rounding{}, stagnation{};  // in float and in double
+    std::array<double, 2> rounding{}, stagnation{};  // rounding_floor() and expected_stagnation(), in float and in double
 };
 
 struct SceneSpectrum {
@@ -44,15 +44,15 @@ struct SceneSpectrum {
 
 struct SpectrumLimits {
     int eigenvalues = 4;
-    std::optional<int> channel = {};  // the only one; without it all that differ
+    std::optional<int> channel = {};  // the only channel; without it, all that differ
     double seconds = 60.0;
     double most = 10000.0;             // applications of K in a search
     std::optional<std::string> petsc;  // SLEPc's options for another search for the eigenvalues of each channel
-    // Called in every search with what is searched, and how far the search is.
+    // Called in every search with the name of the search and how far it is.
     std::function<void(const std::string& what, const EigenStep&)> look = [](const std::string&, const EigenStep&) {};
 };
 
-// If out of time or stopped, returns what was found so far, with a warning.
+// If it runs out of time or is stopped, returns what was found so far, with a warning.
 SceneSpectrum scene_spectrum(const MatrixSystem& system, const SpectrumLimits& limits, const Watch& watch = {});
 
 }  // namespace neumann

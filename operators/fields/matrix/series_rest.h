@@ -1,13 +1,15 @@
 // Σ_{k>N} K^k Le, the rest of a series, with few applications of K.
 //
-// Terms are added until t_{n+2} ≈ μ t_n; what follows is summed as a geometric series. Every second term is compared because light
-// between, for example, a lamp and the ceiling makes neighbouring terms alternate. μ is the ratio of each unknown by itself: light
-// of a room that is dim and slow does not fall like that of one that is bright and fast, and a picture may show the dim one alone.
+// Terms are added until t_{n+2} ≈ μ t_n; the later ones are summed as a geometric series. Every second term is compared
+// because light between, for example, a lamp and the ceiling makes neighbouring terms alternate. Each unknown has its
+// own ratio μ: light of a room that is dim and slow does not fall like that of one that is bright and fast, and a
+// picture may show the dim one alone.
 //
-// The answer is bounded unknown by unknown, relative to itself. θ = t_{n+1} + t_{n+2} + … is the solution of θ = T + K^m θ with
-// T = t_{n+1} + … + t_{n+m}, m = 2. If a guess g has the residual r = T + K^m g − g and |r| ≤ η (T − r), then η g, which solves
-// x = η (T − r) + K^m x, is above |θ − g| because K ≥ 0. So many more applications give this, and T + K^m g, which is closer than
-// g. Light that comes round in more than two bounces leaves unknowns without light in T: then m is doubled.
+// The error is bounded unknown by unknown, relative to the value there. θ = t_{n+1} + t_{n+2} + … is the solution of θ
+// = T + K^m θ with T = t_{n+1} + … + t_{n+m}, m = 2. If a guess g has the residual r = T + K^m g − g and |r| ≤ η (T −
+// r), then η g, which solves x = η (T − r) + K^m x, is above |θ − g| because K ≥ 0. m more applications give this
+// bound, and T + K^m g, which is closer than g. Light that comes round in more than two bounces leaves unknowns without
+// light in T: then m is doubled.
 #pragma once
 
 #include "operators/algebra/compensated_sum.h"
@@ -34,11 +36,12 @@ struct SeriesRest {
 
 namespace series_rest {
 
-// Where numbers lose their digits.
+// Numbers below this may have lost digits.
 constexpr double too_small = std::numeric_limits<double>::min() / std::numeric_limits<double>::epsilon();
 
-// T / (1 − μ), the sum of T and all that follows, where it falls by μ again and again: the ratio of `term` and `first`, or where an
-// unknown has none, that of all of them. Nothing if one does not fall.
+// T / (1 − μ), the sum of T and all later terms if they fall by μ again and again. μ is the ratio of `term` and `first`
+// at each unknown, or if an unknown has no light in `first`, the ratio of all unknowns together. Returns nothing if one
+// μ is not below 1.
 template <int C>
 std::optional<ExitantVector<C>> sum_geometrically(const ExitantVector<C>& first, const ExitantVector<C>& term,
                                                   const ExitantVector<C>& T) {
@@ -58,8 +61,8 @@ std::optional<ExitantVector<C>> sum_geometrically(const ExitantVector<C>& first,
     return sum;
 }
 
-// A third or so of how far that is from the truth, relative to `before` + T / (1 − μ): how much the ratios of unknowns still
-// change, where those of the terms before gave `T_before`. Costs no application.
+// About a third of the error of the guess T / (1 − μ), relative to `before` + the guess: how much the ratios of
+// unknowns still change, compared with those from the terms before, whose sum is `T_before`. Costs no application.
 template <int C>
 double change_of_ratios(const ExitantVector<C>& before, const ExitantVector<C>& T_before, const ExitantVector<C>& T,
                         const ExitantVector<C>& guess) {
@@ -73,8 +76,8 @@ double change_of_ratios(const ExitantVector<C>& before, const ExitantVector<C>& 
     return largest;
 }
 
-// The largest error η g of an unknown of the channels, relative to `before` + g, for the guess g and K^m g; infinite if it is not
-// bounded.
+// The largest bound η g on the error of an unknown in any channel, relative to `before` + g, for the guess g and
+// `after` = K^m g; infinite if there is no bound.
 template <int C>
 double relative_error(const ExitantVector<C>& before, const ExitantVector<C>& T, const ExitantVector<C>& guess,
                       const ExitantVector<C>& after) {
@@ -94,7 +97,7 @@ double relative_error(const ExitantVector<C>& before, const ExitantVector<C>& T,
     return largest;
 }
 
-// Whether light after T gets to unknowns that T has none of.
+// Whether light after T reaches unknowns that have none in T.
 template <int C>
 bool has_gaps(const ExitantVector<C>& T, const ExitantVector<C>& after) {
     for (int c = 0; c < C; ++c)
@@ -105,14 +108,14 @@ bool has_gaps(const ExitantVector<C>& T, const ExitantVector<C>& after) {
 
 }  // namespace series_rest
 
-// `term`: K^N Le.
+// The rest of a series whose last term, K^N Le, is `term`.
 template <int C, class Op>
 SeriesRest<C> rest_of_series(const Op& K, ExitantVector<C> term) {
     SeriesRest<C> rest{ExitantVector<C>::zero(static_cast<std::uint32_t>(term.unknowns()))};
     CompensatedSum<ExitantVector<C>> sum(rest.sum);
     std::optional<ExitantVector<C>> T_before;
-    int next_guess = 0;           // is made then even if ratios change
-    constexpr int patience = 32;  // with terms that do not fall two by two
+    int next_guess = 0;           // applications after which a guess is made even if the ratios still change
+    constexpr int patience = 32;  // applications after which m is doubled if terms do not fall two by two
     for (int m = 2; rest.applications < most_terms_of_rest;) {
         const ExitantVector<C> first = std::move(term), before = sum.value();
         term = K(first);

@@ -1,4 +1,4 @@
-// Independent parts of some work, of which each process does some and is told what the others found.
+// Work in independent parts, of which each process does some and receives the results of the others.
 #pragma once
 
 #include "core/base/packed_numbers.h"
@@ -12,8 +12,9 @@
 
 namespace neumann {
 
-// Of found.size() parts, process p has found the p-th share (RowShare::cut); afterwards all have all. For all of them together.
-// Results have pack(PackedNumbers&), and a static unpacked(UnpackedNumbers&) that is its inverse.
+// Shares the results of found.size() parts: process p has found the p-th share (RowShare::cut), and afterwards all
+// processes have all results. All processes must call it together. Results have pack(PackedNumbers&), and a static
+// unpacked(UnpackedNumbers&) that is its inverse.
 template <class Found>
 void tell_all(const RowShare& rows, std::span<Found> found) {
     const std::vector<std::size_t> cut = rows.cut(found.size());
@@ -21,7 +22,7 @@ void tell_all(const RowShare& rows, std::span<Found> found) {
     for (std::size_t i = cut[rows.rank()]; i < cut[rows.rank() + 1]; ++i) found[i].pack(packed);
     const std::vector<std::byte> own = std::move(packed).bytes();
 
-    // Processes tell each other doubles.
+    // Processes can only exchange doubles.
     constexpr std::size_t word = sizeof(double);
     std::vector<double> sizes(cut.size() - 1);
     sizes[rows.rank()] = static_cast<double>(own.size());

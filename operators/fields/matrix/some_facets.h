@@ -1,4 +1,4 @@
-// Numbers of facets, or all if there are none.
+// The numbers of some facets, or all facets if there is no value.
 #pragma once
 
 #include <cstdint>

@@ -11,7 +11,7 @@ TracedChannel::TracedChannel(const RayTable& table, const ReflectionMatrix<1>& R
     if (table.space().size() == table.space().facets().size()) reflectance_ = R.reflectance().matrix().transpose();
 }
 
-// Each ray contributes a part, and their number is assumed to be Poisson distributed.
+// Each ray that hits u contributes a part, and the number of these rays is assumed to be Poisson distributed.
 double TracedChannel::standard_error_of_power(Eigen::Index u) const {
     const IncidentVector<1> worth = adjoint().right()(ExitantVector<1>(Vector(Vector::Ones(size()))));
     double squares = 0.0;

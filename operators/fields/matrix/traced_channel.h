@@ -14,7 +14,8 @@ public:
     // Keeps a reference to the table.
     TracedChannel(const RayTable& table, const ReflectionMatrix<1>& R);
 
-    // Standard error of (K* 1)_u, the fraction of u's power that remains after a bounce; it is estimated by the rays that hit u.
+    // The standard error of (K* 1)_u, the fraction of u's power that remains after a bounce, estimated by the rays that
+    // hit u.
     double standard_error_of_power(Eigen::Index u) const;
 
     // ρ of each unknown, with K = diag(ρ) F; empty if some side is not diffuse.
@@ -28,7 +29,7 @@ private:
 // ray, and K = R T.
 Eigen::SparseMatrix<double, Eigen::RowMajor> transport_matrix(const RayTable& table);
 Eigen::SparseMatrix<double, Eigen::RowMajor> reflection_matrix(const RayTable& table, const ReflectionMatrix<1>& R);
-// The number of entries of that R.
+// The number of entries of reflection_matrix().
 std::size_t reflection_entries(const RayTable& table, const ReflectionMatrix<1>& R);
 // The étendue of each ray: n² times area times projected solid angle.
 Vector ray_measures(const RayTable& table);

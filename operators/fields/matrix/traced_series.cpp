@@ -19,7 +19,7 @@ namespace neumann {
 
 namespace {
 
-// P, prolongation: a function on the coarser patches as one on the finer ones.
+// P, prolongation: maps a function on the coarser patches to one on the finer ones.
 template <int C>
 class Prolongation {
 public:
@@ -62,7 +62,7 @@ private:
     std::span<const std::uint32_t> around_;
 };
 
-// The sum of all terms after the last, whose bounce is given `light`.
+// The sum of all terms after the last one of the series. `light` is given to the first of these bounces.
 template <int C, class Series>
 SeriesRest<C> rest_after(const Series& series, const ExitantVector<C>* light) {
     const auto K = [&](const ExitantVector<C>& f) { return series.apply(f); };
@@ -73,8 +73,8 @@ SeriesRest<C> rest_after(const Series& series, const ExitantVector<C>* light) {
     return rest;
 }
 
-// What the lights give to a bounce without T: b = K Le in bounce 1, and light that comes by links (link_light.h) in later ones; the
-// last entry is for all bounces beyond N. Empty if all light comes by T.
+// The light that is given to bounces in addition to what T carries: b = K Le in bounce 1, and light that comes by links
+// (link_light.h) in later ones. The last entry is for all bounces beyond N. Empty if T carries all light.
 template <int C>
 using Given = std::vector<ExitantVector<C>>;
 
@@ -97,7 +97,7 @@ TracedSeries series_of(const Product& product, int links, const ExitantVector<C>
         series.coarse_by_links.emplace(coarser, N);
     }
     const auto same = [](ExitantVector<C> f) { return f; };
-    // Of a bounce, without b.
+    // The light given to bounce i by links, without b.
     const auto by_links = [&](int i) -> const ExitantVector<C>* {
         return i > 1 && given.size() > 2 ? &given[static_cast<std::size_t>(i)] : nullptr;
     };
@@ -144,15 +144,15 @@ TracedSeries series_of(const Product& product, int links, const ExitantVector<C>
     return series;
 }
 
-// Whether points on lights are sampled, and not found by the rays of T. What a small lamp throws by way of a mirror is rare for
-// rays from patches however many they are.
+// Whether points on lights are sampled, rather than found by the rays of T. Rays from patches, however many, rarely
+// find the light of a small lamp by way of a mirror.
 bool samples_lights(const Scene& scene, const TracedSeriesSettings& settings) {
     constexpr double small_part = 0.1;
     return rays_that_meet_lights(scene, settings.rays) < enough_rays ||
            (settings.glossy == Glossy::by_rays && (rays_that_meet_lights(scene, 1) < small_part || has_glossy_lights(scene)));
 }
 
-// Adds up what each process has of the power.
+// Adds up the power over all processes.
 void add_up(const RowShare& rows, std::vector<PowerOfTerm>& power) {
     std::vector<double> values;
     for (const PowerOfTerm& p : power) values.insert(values.end(), {p.emitted, p.left, p.caught, p.absorbed});
@@ -178,7 +178,7 @@ TracedSeries trace_light(const Scene& scene, const RowShare& rows, const PatchSp
     std::vector<PowerOfTerm> power(static_cast<std::size_t>(settings.bounces) + 1);
     std::uint64_t light_rays = 0, link_rays = 0;
     Given<C> given;
-    // Of lights that have no unknowns, only what arrives is known.
+    // If lights have no unknowns, only the power that arrives from them is known.
     const bool from_elsewhere = scene.emitters.has_environment() || scene.emitters.has_delta_lights() ||
                                 (settings.glossy == Glossy::by_rays && has_glossy_lights(scene));
     const auto arrives = [&](std::size_t k, const IncidentVector<C>& means) {
@@ -197,7 +197,7 @@ TracedSeries trace_light(const Scene& scene, const RowShare& rows, const PatchSp
                 given.push_back(R(std::move(by_links.radiance[k])));
             }
             if (settings.bounces == 0) arriving = std::move(arriving) + by_links.radiance[1];
-            // All processes have found the same.
+            // All processes have found the same power, so only the first adds it.
             for (std::size_t k = 0; from_elsewhere && rows.is_first() && k < power.size(); ++k) power[k] += by_links.power[k];
             link_rays = by_links.rays;
         }

@@ -14,7 +14,7 @@ namespace neumann {
 
 namespace {
 
-// Approximate memory per unknown, and per ray with its entry in T and in the transpose of one channel.
+// The approximate memory per unknown, and per ray with its entry in T and in the transpose of one channel.
 constexpr double bytes_of_unknown = 160.0, bytes_of_ray = 16.0;
 
 }  // namespace

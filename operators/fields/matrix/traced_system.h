@@ -1,4 +1,4 @@
-// A scene as matrices: its patches, the rays of T, and for each colour channel R, Le and b = K Le.
+// A scene as matrices in one process: its patches, the rays of T, and for each colour channel R, Le and b = K Le.
 #pragma once
 
 #include "operators/fields/matrix/matrix_system.h"
@@ -9,14 +9,15 @@
 
 namespace neumann {
 
-// Its patches. Throws InputError as TracedSystem's constructor does; `processes`: how many share the rays.
+// The patches of a TracedSystem. Throws InputError as its constructor does. `processes` is the number of processes that
+// share the rays.
 PatchSpace traced_space(const Scene& scene, const TracedSettings& settings, int processes = 1);
 
 class TracedSystem : public MatrixSystem {
 public:
-    // Keeps a reference to the scene. Throws InputError if there are no surfaces, if no side of any surface faces another, and if
-    // the patches and rays need too much memory. Throws Stopped if `watch` stops it while T is
-    // traced.
+    // Keeps a reference to the scene. Throws InputError if there are no surfaces, if no side of any surface faces
+    // another or shines, and if the patches and rays need too much memory. Throws Stopped if `watch` stops it while T
+    // is traced.
     TracedSystem(const Scene& scene, const TracedSettings& settings, const Watch& watch = {});
     TracedSystem(const TracedSystem&) = delete;
     TracedSystem& operator=(const TracedSystem&) = delete;

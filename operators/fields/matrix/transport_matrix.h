@@ -23,7 +23,7 @@ public:
     // Keeps a reference to the table.
     explicit TransportMatrix(const RayTable& table) : table_(&table) {}
 
-    // Of the table's rows; in other cells nothing is set.
+    // The means of the table's rows; in cells without a row nothing is set.
     Range operator()(const Domain& f) const;
     // Sorts the rays by the unknown that they see.
     AdjointTransportMatrix<C> adjoint() const;

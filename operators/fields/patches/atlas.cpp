@@ -34,15 +34,15 @@ bool is_plane_and_convex(const std::array<Vec3, 4>& p, const Vec3& normal) {
     return true;
 }
 
-// Of a shape that has so many faces, or fewer, none are joined: the sides of a small box are patches each.
+// If a shape has no more faces than this, none are joined: the sides of a small box are patches each.
 constexpr std::size_t few_faces = 16;
-// Larger instances are joined as a whole, also if some of their faces are large: a table of the faces of each might not fit in
-// memory.
+// If all instances together have more faces than this, each is joined as a whole, even if some of its faces are large:
+// a table of the faces of each might not fit in memory.
 constexpr std::size_t most_faces_of_instances = 10'000'000;
 
 bool is_small(double face, double patch_area) { return face <= 0.5 * patch_area; }
 
-// The faces of each mesh that are joined, because patches are larger.
+// The faces of each mesh that are joined because patches are larger.
 class SmallFaces {
 public:
     SmallFaces(const Geometry& geometry, const std::vector<ShapeArea>& areas, double patch_area, std::size_t patches)
@@ -132,7 +132,7 @@ const FaceClusters& Atlas::join(const Geometry& geometry, std::uint32_t number, 
         return std::make_shared<const FaceClusters>(geometry, chart.shape(), std::move(faces), n);
     };
     if (instance && keeps_shares_[chart.shape()] && !small_.contains(number)) {
-        // A power of two, so that instances of different sizes share what they can.
+        // The number is a power of two, so that instances of different sizes share what they can.
         const std::size_t n = std::bit_floor(clusters);
         auto& shared = shared_[{instance->shared().get(), n}];
         if (!shared) shared = make(n);
@@ -189,7 +189,7 @@ void Atlas::add_pairs(std::uint32_t shape, const Shape& mesh, std::vector<bool>&
 
     for (const Shared& pair : shared) {
         if (has_chart[pair.first] || has_chart[pair.second]) continue;
-        // Rotated so that the triangles are a b c and a c d, which share the edge a c.
+        // The corners are rotated so that the triangles are a b c and a c d, which share the edge a c.
         const std::array<Vec3, 3> low = corners_of(mesh, pair.first).at, up = corners_of(mesh, pair.second).at;
         for (std::size_t i = 0; i < 3; ++i)
             for (std::size_t j = 0; j < 3; ++j) {

@@ -21,7 +21,7 @@ struct Cell {
 // is linear in s and t, so areas and uniform points have closed forms.
 class QuadMap {
 public:
-    // Corners counter-clockwise about `normal`; c may coincide with d, but no three others lie on a line.
+    // The corners are counter-clockwise about `normal`; c may coincide with d, but no three others lie on a line.
     QuadMap(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, const Vec3& normal);
 
     Vec3 position(const Vec2& st) const {
@@ -41,12 +41,12 @@ public:
     double area(const Cell& c) const {
         return (c.s1 - c.s0) * (c.t1 - c.t0) * (j0_ + 0.5 * (js_ * (c.s0 + c.s1) + jt_ * (c.t0 + c.t1)));
     }
-    // Uniform by area for uniform u in [0, 1)².
+    // A point that is uniform by area if u is uniform in [0, 1)².
     Vec2 uniform(const Cell& cell, const Vec2& u) const {
         if (is_parallelogram_) return {cell.s0 + (cell.s1 - cell.s0) * u.x, cell.t0 + (cell.t1 - cell.t0) * u.y};
         return uniform_in_trapezoids(cell, u);
     }
-    // Lengths of the lines t = 1/2 and s = 1/2.
+    // The lengths of the lines t = 1/2 and s = 1/2.
     Vec2 lengths() const { return {glm::length(e_ + 0.5 * g_), glm::length(f_ + 0.5 * g_)}; }
 
 private:
@@ -54,7 +54,7 @@ private:
     Vec2 uniform_in_trapezoids(const Cell& cell, const Vec2& u) const;
 
     Vec3 a_, x_, y_;       // an orthonormal basis of the plane
-    Vec2 e_, f_, g_;       // b − a, d − a, a − b + c − d in it
+    Vec2 e_, f_, g_;       // b − a, d − a and a − b + c − d in this basis
     double j0_, js_, jt_;  // |∂P/∂s × ∂P/∂t| = j0 + js s + jt t
     double of_area_;       // 1 / j0
     bool is_parallelogram_;
@@ -62,26 +62,28 @@ private:
 
 class Chart {
 public:
-    // A sphere, a cylinder or a disc.
+    // The chart of a sphere, a cylinder or a disc.
     Chart(const Geometry& geometry, std::uint32_t shape);
-    // The quadrilateral a b c d, made of the triangles `lower`, on b's side of the diagonal a c, and `upper`; they may be the same.
+    // The chart of the quadrilateral a b c d, made of the triangles `lower`, on b's side of the diagonal a c, and
+    // `upper`; they may be the same.
     Chart(std::uint32_t shape, const std::array<Vec3, 4>& corners, const Vec3& normal, std::uint32_t lower, std::uint32_t upper);
 
-    // Small faces of a mesh or an instance: so many, with this area. They have no places before set_clusters().
+    // The chart of `faces` small faces of a mesh or an instance, which have this area. It has no clusters before
+    // set_clusters().
     Chart(std::uint32_t shape, std::size_t faces, double area);
 
     std::uint32_t shape() const { return shape_; }
-    // A quadrilateral, with its corners (the last two may coincide) and its normal.
+    // Whether the chart is a quadrilateral, with corners (the last two may coincide) and a normal.
     bool is_plane() const { return quad_.has_value(); }
     const std::array<Vec3, 4>& corners() const { return corners_; }
     Vec3 normal() const { return quad_->normal(); }
-    // Null unless the chart is of clusters, which are ranges of s.
+    // The clusters, which are ranges of s; null if the chart has none.
     const FaceClusters* clusters() const { return clusters_.get(); }
-    // The number of faces of clusters; 0 of other charts.
+    // The number of faces in clusters; 0 for other charts.
     std::size_t small_faces() const { return small_faces_; }
     void set_clusters(std::shared_ptr<const FaceClusters> clusters) { clusters_ = std::move(clusters); }
 
-    // Not of clusters: of a position on the chart, or near its plane.
+    // The coordinates of a position on the chart, or near its plane; not for clusters.
     Vec2 coordinates(const Geometry& geometry, const Vec3& position) const {
         return quad_ ? quad_->coordinates(position) : geometry.round_coordinates(shape_, position);
     }
@@ -93,7 +95,7 @@ public:
         if (clusters_) geometry.look_around(p);
         return p;
     }
-    // On clusters, whose faces are many, it is not found out whether the point is close.
+    // On clusters, whose faces are many, the point is not checked for close faces, as Geometry::look_around() would.
     SurfacePoint bare_point(const Geometry& geometry, const Vec2& st) const {
         if (clusters_) return clusters_->bare_point(geometry, shape_, st);
         if (!quad_) return geometry.point(shape_, 0, st);
@@ -105,9 +107,9 @@ public:
         if (quad_) return quad_->uniform(cell, u);
         return {cell.s0 + (cell.s1 - cell.s0) * u.x, cell.t0 + (cell.t1 - cell.t0) * u.y};
     }
-    // Approximate lengths of lines of constant t and of constant s.
+    // The approximate lengths of lines of constant t and of constant s.
     Vec2 lengths() const { return lengths_; }
-    // t = 0 and t = 1 are the same line.
+    // Whether t = 0 and t = 1 are the same line.
     bool closed_in_t() const { return closed_in_t_; }
 
 private:

@@ -10,10 +10,11 @@ namespace neumann {
 
 namespace {
 
-// Normals that differ by a right angle count as much as places that are 1.5 √2 widths of a cluster apart.
+// With this weight, normals that differ by a right angle count as much as places that are 1.5 √2 widths of a cluster
+// apart.
 constexpr double weight_of_normals = 1.5;
 constexpr std::size_t faces_in_parallel = 8192, ordered_to = 4;
-// Clusters are not smaller than this share of a mesh, so that doubles tell where they end.
+// Clusters are not smaller than this share of a mesh, so that their ends differ as doubles.
 constexpr double least_share = 1e-9;
 
 struct Item {
@@ -23,8 +24,8 @@ struct Item {
 };
 
 struct Split {
-    std::size_t below;  // items
-    double share;       // of area
+    std::size_t below;  // number of items
+    double share;       // their share of the area
 };
 
 // Moves the items whose widest coordinate is below its mean to the front.
@@ -58,8 +59,8 @@ Split split(std::span<Item> items) {
     return {below, before / area};
 }
 
-// How many of n clusters come from `below` of `all` items with this share of their area. Whole groups that coarser patches join
-// stay together.
+// The number of the n clusters that are made of the first s.below of `all` items. Groups that coarser patches join stay
+// together.
 std::size_t clusters_below(std::size_t n, const Split& s, std::size_t all) {
     constexpr std::size_t group = FaceClusters::joined;
     const std::size_t unit = n >= 2 * group ? group : 1;
@@ -74,11 +75,11 @@ Vec2 square_of_triangle(const Vec2& weights) {
     return weights.y > weights.x ? Vec2(2.0 * weights.x, sum) : Vec2(sum, 2.0 * weights.y);
 }
 
-// `first`: the number of the first item, and of the first cluster.
+// The numbers of the first item and of the first cluster.
 struct Place {
     std::size_t item, cluster;
 };
-// Orders the items; `begin` gets the first item of each of n clusters.
+// Orders the items, and sets `begin` to the first item of each of n clusters.
 void order(std::span<Item> items, std::size_t n, Place first, std::vector<std::size_t>& begin) {
     if (n == 1) begin[first.cluster] = first.item;
     if (n <= 1 && items.size() <= ordered_to) return;

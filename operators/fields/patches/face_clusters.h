@@ -1,8 +1,9 @@
-// Faces of a mesh that are smaller than patches, joined into clusters: near each other, with like normals, and of about equal area.
-// All faces stand in one order, in which each cluster is a range and neighbours follow each other within it too: an element is
-// halved at the mean of whatever varies most, of positions and of normals (top-down as in Wald, On fast construction of
-// SAH-based bounding volume hierarchies, 2007; clusters of faces for radiosity: Willmott, Heckbert and Garland, Face cluster
-// radiosity, 1999). A place is the share of area before it, so that every range is sampled uniformly by area.
+// Faces of a mesh that are smaller than patches, joined into clusters: near each other, with similar normals, and of
+// about equal area. All faces stand in one order, in which each cluster is a range whose neighbours are close, too: a
+// range is halved at the mean of whatever varies most, of positions and of normals (top-down as in Wald, On fast
+// construction of SAH-based bounding volume hierarchies, 2007; clusters of faces for radiosity: Willmott, Heckbert and
+// Garland, Face cluster radiosity, 1999). The place of a face is the share of area before it in this order, so every
+// range of places is sampled uniformly by area.
 #pragma once
 
 #include "core/geometry/geometry.h"
@@ -15,13 +16,14 @@ namespace neumann {
 
 class FaceClusters {
 public:
-    // `faces`: of a mesh or of an instance, each with an area. At most `clusters` of them, and no more than faces. O(n log n).
-    // Other instances of the mesh have the same clusters if the maps stretch all directions alike.
+    // Joins the `faces` of a mesh or of an instance, each with an area, to at most `clusters` clusters, and no more
+    // than there are faces. O(n log n). Other instances of the mesh have the same clusters if the maps stretch all
+    // directions alike.
     FaceClusters(const Geometry& geometry, std::uint32_t shape, std::vector<std::uint32_t> faces, std::size_t clusters);
 
-    // Where clusters end: 0, …, 1, shares of the area.
+    // The ends of the clusters: 0, …, 1, shares of the area.
     const std::vector<double>& ends() const { return ends_; }
-    // Clusters that are joined in coarser patches, in their order.
+    // The number of successive clusters that are joined in a coarser patch.
     static constexpr std::uint32_t joined = 4;
 
     // The share of area before a face.
@@ -34,8 +36,8 @@ public:
 
 private:
     std::vector<std::uint32_t> faces_;  // in order
-    std::vector<std::uint32_t> rank_;   // of each face of the mesh, its place in the order
-    std::vector<double> place_;         // of each place in the order, the share of area before; and 1
+    std::vector<std::uint32_t> rank_;   // for each face of the mesh, its position in the order
+    std::vector<double> place_;         // for each position in the order, the share of area before it; and 1
     std::vector<double> ends_;
 };
 

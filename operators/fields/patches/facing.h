@@ -11,8 +11,8 @@ class Facing {
 public:
     explicit Facing(const Geometry& geometry);
 
-    // Whether all surfaces lie behind this side of a plane or spherical chart, up to a millionth of the scene's size; false if this
-    // is not known.
+    // Whether all surfaces lie behind this side of a plane or spherical chart, up to a millionth of the scene's size;
+    // false if this is not known.
     bool nothing(const Chart& chart, bool front) const;
 
 private:

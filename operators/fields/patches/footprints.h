@@ -1,10 +1,11 @@
-// Where other surfaces touch a chart, or come closer to it than the width of a patch, their outlines are projected onto the chart
-// and divide it (discontinuity meshing). The radiance jumps across such a line (the floor under a box, the ceiling above a lamp),
-// so patches do not reach across it and fields are not interpolated across it.
+// Outlines of surfaces that touch a chart, or come closer to it than the width of a patch: they are projected onto the
+// chart and divide it (discontinuity meshing). The radiance jumps across such a line (the floor under a box, the
+// ceiling above a lamp), so patches do not reach across it and fields are not interpolated across it.
 //
-// Light in a narrow gap is reflected to and fro many times and moves on by about the gap's width each time. What leaks out
-// therefore comes from a depth of a few widths, and larger patches would mix it with light that stays inside. Along the mouth of a
-// gap both surfaces are divided into bands, each a fifth narrower than the next one inwards.
+// Light in a narrow gap is reflected to and fro many times and moves on by about the gap's width each time. The light
+// that leaks out therefore comes from a depth of a few widths, and larger patches would mix it with light that stays
+// inside. Along the mouth of a gap both surfaces are divided into bands, each a fifth narrower than the next one
+// inwards.
 #pragma once
 
 #include "operators/fields/patches/chart.h"
@@ -14,7 +15,7 @@
 
 namespace neumann {
 
-// Where a point lies among the outlines on a chart.
+// The region between the outlines on a chart in which a point lies.
 struct Region {
     std::uint32_t shapes = 0;  // one bit per outline: whether the point lies inside
     std::uint32_t band = 0;    // 0: far from gaps
@@ -50,8 +51,8 @@ private:
     std::vector<Mouth> mouths_;
 };
 
-// The footprints on each chart. Only quadrilaterals have and cause them, not round shapes. `near`: the largest distance of an edge
-// from the chart's plane.
+// The footprints on each chart. Only quadrilaterals have and cause them, not round shapes. `near` is the largest
+// distance of an edge from the chart's plane.
 std::vector<Footprints> find_footprints(const Geometry& geometry, const std::vector<Chart>& charts, double near);
 
 }  // namespace neumann

@@ -15,7 +15,7 @@ struct Part {
     double share = 0.0;       // fraction of the cell's area
     std::vector<std::uint16_t> squares;
 
-    // Uniform by area for uniform u in [0, 1)².
+    // A point that is uniform by area if u is uniform in [0, 1)².
     SurfacePoint point(const Geometry& geometry, const Chart& chart, const Footprints& footprints, const Cell& cell, Region region,
                        Vec2 u) const;
 };

@@ -13,7 +13,7 @@
 
 namespace neumann {
 
-// Cells of directions of the two sides of a shape, as DirectionCells::k; 0: this side neither reflects nor emits.
+// The cells of directions of the two sides of a shape, as DirectionCells::k; 0 if the side neither reflects nor emits.
 struct SideDirections {
     std::uint32_t front = 1, back = 0;
     bool emits = false;                          // the front side emits
@@ -27,13 +27,14 @@ struct Facet {
     std::uint32_t patch;
     bool front;
     DirectionCells cells;
-    std::uint32_t first;  // its first unknown; those of the back follow those of the front
+    std::uint32_t first;  // number of its first unknown; those of the back follow those of the front
     double index = 1.0;   // n
 };
 
 class PatchSpace {
 public:
-    // `sides`: one entry for each shape. Throws InputError as Patches does, and if the unknowns do not fit in 32 bits.
+    // `sides` has one entry for each shape. Throws InputError as Patches does, and if the unknowns do not fit in 32
+    // bits.
     PatchSpace(const Geometry& geometry, const Patching& patching, std::vector<SideDirections> sides)
         : PatchSpace(Patches(geometry, patching), std::move(sides)) {}
 
@@ -46,24 +47,24 @@ public:
     const Patches& patches() const { return patches_; }
     const std::vector<Facet>& facets() const { return facets_; }
     std::uint32_t size() const { return size_; }
-    // The number used where there is no unknown, one past the last unknown; its radiance is zero.
+    // The number that stands for no unknown, one past the last unknown; its radiance is zero.
     std::uint32_t nothing() const { return size_; }
 
-    // Étendue of each unknown, n² times area times projected solid angle: ⟨f, g⟩ = Σ measure f g, and of basic radiance Σ measure f
-    // is power.
+    // The étendue of each unknown, n² times area times projected solid angle: ⟨f, g⟩ = Σ measure f g, and Σ measure f
+    // is the power of a basic radiance f.
     double measure(const Facet& facet) const {
         return facet.index * facet.index * patches_.area(facet.patch) * pi / facet.cells.size();
     }
 
     // The facet of an unknown.
     std::uint32_t facet_of(std::uint32_t unknown) const { return facet_of_unknown_[unknown]; }
-    // For a facet of facets().size(): size().
+    // The first unknown of a facet; size() if `facet` is facets().size().
     std::uint32_t first_unknown(std::uint32_t facet) const { return facet < facets_.size() ? facets_[facet].first : size_; }
     // The facet of a side of a patch, or facets().size() if it has none.
     std::uint32_t facet(std::uint32_t patch, bool front) const { return facet_of_side_[side(patch, front)]; }
 
-    // On which side of p the direction w lies: the shading normal tells, as in R at a point. Of a side that emits, the geometric
-    // normal does, as in Le.
+    // Whether the direction w lies on the front side of p: by the shading normal, as in R at a point, but for shapes
+    // that emit by the geometric normal, as in Le.
     bool is_front(const SurfacePoint& p, const Vec3& w) const {
         const bool by_shading = is_smooth_[p.shape] && !sides_[p.shape].emits;
         return glm::dot(by_shading ? shading_normal(geometry().shapes()[p.shape], p) : p.normal, w) > 0.0;
@@ -74,9 +75,9 @@ public:
         if (sides_[p.shape].of(front) == 0) return nothing();
         return unknown(patches_.locate(p), front, p, w);
     }
-    // z points away from the facet's side: the shading normal, as in R at a point.
+    // A frame whose z points away from the facet's side along the shading normal, as in R at a point.
     Frame frame(const Facet& facet, const SurfacePoint& p) const { return frame(facet.front, p); }
-    // Whether that normal is another one at each point of a plane patch.
+    // Whether the normal of frame() may vary over a plane patch.
     bool is_smooth(const Facet& facet) const { return is_smooth_[patches_.chart(facet.patch).shape()]; }
 
     // The radiance that leaves p along w, interpolated linearly between patches: Σ weight · field[unknown]. The weight is 0 if
@@ -103,7 +104,7 @@ private:
 
     Patches patches_;
     std::vector<SideDirections> sides_;
-    std::vector<bool> is_smooth_;  // of shapes
+    std::vector<bool> is_smooth_;  // for each shape
     std::vector<Facet> facets_;
     std::vector<std::uint32_t> facet_of_unknown_;
     std::vector<std::uint32_t> facet_of_side_, first_of_side_;  // front and back of each patch; first unknown, or nothing()

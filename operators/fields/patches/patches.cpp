@@ -12,17 +12,17 @@ namespace neumann {
 
 namespace {
 
-// How charts are cut into cells. `divides`: also those that are smaller than a cell, into four, so that coarser cells differ from
-// finer ones on every chart.
+// How charts are cut into cells. `divides` cuts charts that are smaller than a cell, too, into four, so that coarser
+// cells differ from finer ones on every chart.
 struct Cutting {
     double width;
     bool divides;
 };
 
-// A body has six sides.
+// At least six, as a body has six sides.
 constexpr std::size_t least_clusters = 6;
 
-// Numbers of cells along the two directions of a chart.
+// The numbers of cells along the two directions of a chart.
 std::array<std::size_t, 2> cells_of(const Chart& chart, const Cutting& cutting) {
     if (const std::size_t faces = chart.small_faces(); faces > 0) {
         const double area = chart.area({0.0, 1.0, 0.0, 1.0});
@@ -213,7 +213,7 @@ Patches::Axis Patches::axis(std::vector<double> ends, bool closed, std::uint32_t
     return axis;
 }
 
-// Joins pairs of cells, or fours of clusters; what is left over belongs to the last ones.
+// Joins pairs of cells, or groups of four clusters; what is left over belongs to the last ones.
 Patches::Axis Patches::coarser(const Axis& fine) {
     std::vector<double> ends{fine.ends.front()};
     for (std::uint32_t i = 1; i < size_of(fine); ++i)

@@ -1,5 +1,6 @@
-// Surfaces cut into patches: the cells of a grid on each chart, finer towards its edges, and cut again along the outlines of what
-// touches the chart. Where faces are smaller than patches, a patch is a cluster of them. Geometry only.
+// Surfaces cut into patches: the cells of a grid on each chart, finer towards its edges, and cut again along the
+// outlines of surfaces that touch the chart. Faces that are smaller than patches are joined into clusters, each of
+// which is a patch. Geometry only.
 #pragma once
 
 #include "operators/fields/patches/atlas.h"
@@ -13,9 +14,10 @@
 namespace neumann {
 
 struct Patching {
-    std::size_t patches = 4000;  // approximate number; at least four per chart, if compared
+    std::size_t patches = 4000;  // approximate number; at least four per chart, if `compared`
     double grading = 0.7;        // in [0, 1): cells at an edge are narrower by the factor 1 − grading
-    // With coarser(), which then has others on every chart. If not, a chart may be one patch where `patches` are few.
+    // The patches are compared with coarser(), so these two have to differ on every chart. Otherwise a chart may be one
+    // patch if `patches` are few.
     bool compared = true;
     bool operator==(const Patching&) const = default;
 };
@@ -25,7 +27,7 @@ public:
     // Throws InputError if there are no surfaces, or if `patches` is 0.
     Patches(const Geometry& geometry, const Patching& patching);
 
-    // Patches twice as wide in both directions, if a chart has enough. point() must not be called on them.
+    // Patches twice as wide in both directions, if a chart has enough. point() must not be called on the result.
     Patches coarser() const;
     // For each patch, the coarser patch that contains it.
     std::vector<std::uint32_t> coarser_of_each(const Patches& coarser) const;
@@ -36,7 +38,7 @@ public:
     std::uint32_t chart_number(std::uint32_t patch) const { return patches_[patch].chart; }
     const Chart& chart(std::uint32_t patch) const { return charts()[chart_number(patch)]; }
     std::uint32_t chart_of(const SurfacePoint& p) const { return atlas_.chart_of(p); }
-    // The larger of the numbers of cells along the two directions of a chart; of clusters, the root of their number.
+    // The larger of the numbers of cells along the two directions of a chart; for clusters, the root of their number.
     std::uint32_t cells_along(std::uint32_t chart) const;
 
     // The place of a point on its chart, which is the same for coarser patches.
@@ -45,7 +47,7 @@ public:
         Vec2 st;
         Region region;
     };
-    // Of a position on a chart that is not of clusters.
+    // The place of a position on a chart that is not of clusters.
     Place place(std::uint32_t chart, const Vec3& position) const {
         const Vec2 st = charts()[chart].coordinates(*geometry_, position);
         return {chart, st, footprints_[chart].empty() ? Region() : footprints_[chart].region(st, position)};
@@ -66,21 +68,21 @@ public:
         const Vec2 st = chart.coordinates(*geometry_, p.position);
         return locate(number, st, [&] { return footprints_[number].region(st, p.position); });
     }
-    // Uniform by area for uniform u in [0, 1)².
+    // A point that is uniform by area if u is uniform in [0, 1)².
     SurfacePoint point(std::uint32_t number, const Vec2& u) const {
         const Patch& patch = patches_[number];
         const Chart& chart = charts()[patch.chart];
         return patch.part == whole ? chart.point(*geometry_, chart.uniform(patch.cell, u)) : point_of_part(patch, u);
     }
-    // The same, as Chart::bare_point().
+    // Such a point, made by Chart::bare_point().
     SurfacePoint bare_point(std::uint32_t number, const Vec2& u) const {
         const Patch& patch = patches_[number];
         const Chart& chart = charts()[patch.chart];
         return patch.part == whole ? chart.bare_point(*geometry_, chart.uniform(patch.cell, u)) : point_of_part(patch, u);
     }
 
-    // Quadrilaterals that look like the patch; on a plane they cover it. A piece on an outline that divides a cell belongs to the
-    // patch that holds its middle. Not on coarser() ones.
+    // Quadrilaterals that look like the patch; on a plane they cover it. A piece on an outline that divides a cell
+    // belongs to the patch that has its middle. Not for the result of coarser().
     std::vector<std::array<Vec3, 4>> quadrilaterals(std::uint32_t number) const;
 
     // Linear interpolation between the values at the patches' centres, extrapolated to the chart's edge: the value at a point is
@@ -100,7 +102,7 @@ private:
         std::vector<std::uint32_t> first;   // lookup table: the first cell in each of equal parts of [0, 1]
         std::vector<double> next;           // start of the next cell; ∞ for the last cell, and two more ∞
         bool closed = false;                // periodic: the last cell is adjacent to the first
-        std::uint32_t joined = 2;           // cells that are one coarser cell
+        std::uint32_t joined = 2;           // number of cells that are one coarser cell
     };
     struct Grid {
         Axis s, t;
@@ -118,7 +120,7 @@ private:
 
     struct Neighbours {
         std::uint32_t low, high;
-        double weight;  // of `high`
+        double weight;  // weight of `high`
     };
     Patches(const Geometry& geometry, const Patching& patching, const std::vector<ShapeArea>& areas);
     Patches(const Geometry& geometry, Atlas atlas, std::vector<Footprints> footprints)
@@ -142,7 +144,7 @@ private:
         const Grid& grid = grids_[chart];
         return grid.first + cell(grid.t, st.y) * size_of(grid.s) + cell(grid.s, st.x);
     }
-    // The tables are large and accessed at random, so as few of them as possible are read.
+    // Reads as few of the tables as possible, because they are large and accessed at random.
     template <class RegionAt>
     std::uint32_t locate(std::uint32_t chart, const Vec2& st, const RegionAt& region) const {
         const std::uint32_t c = cell(chart, st);

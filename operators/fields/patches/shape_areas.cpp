@@ -9,7 +9,7 @@ namespace neumann {
 
 namespace {
 
-// Maps that are written with six digits stretch a direction by that much more than another.
+// Maps that are written with six digits stretch one direction more than another by up to this.
 constexpr double written_digits = 1e-5;
 
 // Whether the map stretches all directions by the same factor, whose square is `scale`.
@@ -21,7 +21,7 @@ bool is_similarity(const glm::dmat3& map, double scale) {
     return most <= written_digits * scale;
 }
 
-// The same sum for any number of threads.
+// Adds up the faces; the sum is the same for any number of threads.
 ShapeArea sum(std::uint32_t faces, const auto& area_of) {
     using Range = oneapi::tbb::blocked_range<std::uint32_t>;
     constexpr std::uint32_t at_once = 4096;

@@ -1,5 +1,5 @@
-// One colour channel of K = R T, of which each process has the rows of its own unknowns (shared_rays.h). A row of K x is the same
-// bits as that of a TracedChannel.
+// One colour channel of K = R T, of which each process has the rows of its own unknowns (shared_rays.h). A row of K x
+// has the same bits as in a TracedChannel.
 #pragma once
 
 #include "operators/algebra/channel_operator.h"
@@ -22,7 +22,7 @@ public:
     void apply(const Vector& x, Vector& y) const override;
     void apply_adjoint(const Vector& x, Vector& y) const override;
 
-    // Columns are on other processes: there are rows alone.
+    // This process has only rows; parts of the columns are on other processes.
     bool has_entries() const override { return false; }
     double row(Eigen::Index u, const Vector& x) const override;
     double diagonal(Eigen::Index u) const override;
@@ -34,14 +34,15 @@ public:
 
 private:
     void reflect(Vector& means) const;
-    // Adds Σ over the rays that see it of each(power of the ray) at each unknown; g: importance at the starts of the rays.
+    // For each own unknown, the sum of each(power of the ray) over the rays that see it; g is the importance at the
+    // starts of the rays.
     template <class Each>
     Vector to_seen(const Vector& g, const Each& each) const;
 
     const SharedRays* T_;
     ReflectionMatrix<1> R_;
     Vector measure_;
-    std::vector<std::uint32_t> facet_of_;  // of each own unknown, its place in T_->facets()
+    std::vector<std::uint32_t> facet_of_;  // for each own unknown, the position of its facet in T_->facets()
 };
 
 }  // namespace neumann

@@ -9,7 +9,7 @@ namespace neumann {
 namespace {
 
 void find_reference(Problem problem, SideBySide& all) {
-    // What rounding leaves of a sum that falls as slowly as the spectral radius.
+    // The tolerance is what rounding leaves of a sum that falls as slowly as the spectral radius.
     problem.tolerance = 1e-13;
     problem.observer = nullptr;
     std::string method;

@@ -1,5 +1,5 @@
-// A scene as matrices that several processes share. Each has the patches, and of T, R and all vectors what belongs to its own
-// unknowns.
+// A scene as matrices that several processes share. Each process has all patches, and the parts of T, R and all vectors
+// that belong to its own unknowns.
 #pragma once
 
 #include "operators/fields/matrix/matrix_system.h"
@@ -11,7 +11,8 @@ namespace neumann {
 
 class SharedSystem : public MatrixSystem {
 public:
-    // For all processes together; as the constructor of TracedSystem. `petsc`: SLEPc's options for leading().
+    // All processes construct it together; the conditions are those of TracedSystem's constructor. `petsc` has SLEPc's
+    // options for leading().
     SharedSystem(const Scene& scene, const TracedSettings& settings, Processes& processes, std::string petsc = "",
                  const Watch& watch = {});
     SharedSystem(const SharedSystem&) = delete;
