@@ -1,6 +1,7 @@
-// Bidirectional path tracing: a subpath from the camera and one from a light, with every vertex of one connected to every vertex of
-// the other (Veach and Guibas 1994; Lafortune and Willems 1993). Strategy (s, t), here called a way, has s vertices from the light
-// and t from the camera, the first of which is on the lens, and makes paths of bounce s + t − 2:
+// Bidirectional path tracing: traces a subpath from the camera and one from a light, and connects every vertex of one
+// to every vertex of the other (Veach and Guibas 1994; Lafortune and Willems 1993). Strategy (s, t), here called a way,
+// has s vertices from the light and t from the camera, the first of which is on the lens, and makes paths of bounce s +
+// t − 2:
 //
 //     (0, t)  the camera subpath hits a light            (1, t)  its last vertex samples the lights
 //     (s, 1)  a light vertex is connected to the lens    (s, t)  two vertices are connected
@@ -20,7 +21,7 @@ namespace neumann {
 
 struct BidirectionalWork {
     LightWalkers light;
-    std::vector<std::vector<LightVertex>> light_path;  // one path for each walker: its vertices 1, 2, …
+    std::vector<std::vector<LightVertex>> light_path;  // vertices 1, 2, … of the path of each walker
     std::vector<CameraEdge> camera_edges;
     std::vector<double> camera_weights;  // weights of camera_edges
     Together<CameraWalker> camera;
@@ -33,10 +34,10 @@ struct BidirectionalWork {
 
 class Bidirectional {
 public:
-    // direct.direct and left_out of `settings` are ignored. The rest (bounces > N) is sampled with ways (0, t) and (1, t) alone.
-    // With splitting, the MIS weights are still those of one light sample and one walk; they add up to 1 anyway, because each way
-    // is averaged. `pixels`: number of pixels. There are as many light paths as camera paths in the whole picture, so each light
-    // vertex can be seen by that many pixels.
+    // Ignores direct.direct and left_out of `settings`. The rest (bounces > N) is sampled only with ways (0, t) and (1,
+    // t). With splitting, the MIS weights are still those of one light sample and one walk; they add up to 1 anyway,
+    // because each way is averaged. `pixels` is the number of pixels. There are as many light paths as camera paths in
+    // the whole picture, so each light vertex can be seen by that many pixels.
     Bidirectional(const Scene& scene, const WalkSettings& settings, double pixels)
         : scene_(&scene),
           settings_(settings),
@@ -44,10 +45,11 @@ public:
           emission_(scene.geometry, scene.emitters),
           lights_(scene.geometry, scene.emitters, settings.direct.lights, settings.direct.place) {}
 
-    // Traces a path for each ray; `camera` and `light` give the random numbers of its subpaths. Calls found(i, Found) for
-    // contributions of path i to its own pixel, and splatted(i, position, Found) for contributions of its light subpath at a
-    // position on the film, times the number of pixels. `rays` has N + 2 entries. `ways`: which ways are made (made_ways.h); the
-    // random numbers that a way takes do not depend on which others are made. Returns the number of walks given up.
+    // Traces a path for each ray; `camera` and `light` give the random numbers of its subpaths. Calls found(i, Found)
+    // for contributions of path i to its own pixel, and splatted(i, position, Found) for contributions of its light
+    // subpath at a position on the film, times the number of pixels. Adds the numbers of rays to `counts`, which has N
+    // + 2 entries. `ways` tells which ways are made (made_ways.h); the random numbers that a way takes do not depend on
+    // which others are made. Returns the number of walks given up.
     template <class Transport, class Sampler, class LightRandom, class OnFound, class OnSplat, class Observer = NoObserver,
               class Ways = AllWays>
     NEUMANN_HOT std::uint64_t trace(const Transport& T, std::span<const CameraRay> rays, std::span<Sampler> camera,
@@ -129,7 +131,7 @@ std::uint64_t Bidirectional::trace_camera_half(const Transport& T, std::span<con
     auto& walkers = work.camera;
     const auto count = [&](int bounce) -> std::uint64_t& { return counts[static_cast<std::size_t>(std::min(bounce, N + 1))]; };
 
-    // T: the first vertices, and (0, 2).
+    // T finds the first vertices, which make way (0, 2).
     const auto arrive_first = [&](CameraWalker& z, std::uint32_t i) {
         ++counts[0];
         z.wo = -z.w;
@@ -154,7 +156,7 @@ std::uint64_t Bidirectional::trace_camera_half(const Transport& T, std::span<con
         for (int bounce = 1; ending.reach(bounce, walkers, samplers, given_up); ++bounce) {
             const bool rest = ending.in_rest(bounce), splits = bounce == 1;
 
-            // R: the edges to the light subpath; T: which of them are visible.
+            // R makes the edges to the light subpath, and T finds which of them are visible.
             const int questions = lights_.empty() ? 0 : !splits ? 1 : copy == 0 ? split.lights : 0;
             work.edges.clear();
             walkers.keep_if([&](CameraWalker& z, std::uint32_t i) {
@@ -192,7 +194,7 @@ std::uint64_t Bidirectional::trace_camera_half(const Transport& T, std::span<con
                     if (seen) found(i, edge.found);
                 });
 
-            // R: sample a direction for the next vertex.
+            // R samples a direction for the next vertex.
             walkers.keep_if([&](CameraWalker& z, std::uint32_t i) {
                 if (ways.camera_vertices(i) <= bounce + 1) return false;
                 const SurfaceSide side = materials.side(z.x, z.wo);
@@ -212,7 +214,7 @@ std::uint64_t Bidirectional::trace_camera_half(const Transport& T, std::span<con
                 return true;
             });
 
-            // T: the next vertices, and (0, t).
+            // T finds the next vertices, which make ways (0, t).
             count(bounce) += walkers.alive.size();
             walkers.follow(T, bounce, observer, [&](CameraWalker& z, std::uint32_t i) {
                 z.wo = -z.w;

@@ -11,11 +11,11 @@ namespace neumann {
 // The connection of a vertex to the lens, before its visibility is known.
 struct CameraEdge {
     std::uint32_t walker = 0;
-    Rgb value{0.0};     // what the sensor measures, times the number of pixels; black if there is no edge
+    Rgb value{0.0};     // the sensor's measurement, times the number of pixels; black if there is no edge
     Vec2 position;      // on the film
-    SurfacePoint lens;  // the point on the lens, facing back along w, or on the surface on which the sensor lies
+    SurfacePoint lens;  // the point on the lens, facing back along w, or on the surface that carries the sensor
     Vec3 w;             // from the vertex to that point
-    double pixels_per_area = 0.0, weight = 1.0;  // of FilmPoint
+    double pixels_per_area = 0.0, weight = 1.0;  // as in FilmPoint
 };
 
 template <class Sampler>
@@ -37,8 +37,8 @@ inline std::optional<CameraEdge> edge_to_lens(const Scene& scene, std::uint32_t 
     return edge;
 }
 
-// Calls each(pixel, weight) for the pixels of the crop whose filter covers a position on the film, row by row, where the weight is
-// not 0.
+// Calls each(pixel, weight), row by row, for the pixels of the crop whose filter has a weight other than 0 at a
+// position on the film.
 template <class Each>
 void for_pixels_reached(const Film& film, const Vec2& position, const Each& each) {
     const double reach = radius(film.filter);
@@ -57,7 +57,7 @@ void for_pixels_reached(const Film& film, const Vec2& position, const Each& each
     }
 }
 
-// The edge from a vertex that reflects.
+// The edge from a vertex that reflects to the lens.
 inline CameraEdge camera_edge(const Scene& scene, std::uint32_t walker, const LightWalker& v, const Vec2& lens) {
     auto edge = edge_to_lens(scene, walker, v.x, lens);
     if (!edge) return {};
@@ -68,7 +68,7 @@ inline CameraEdge camera_edge(const Scene& scene, std::uint32_t walker, const Li
     return *edge;
 }
 
-// The edge from a point on a light; the sampled direction of emission is not used.
+// The edge from a point on a light to the lens; the sampled direction of emission is not used.
 template <class Sampler>
 CameraEdge emission_edge(const Scene& scene, std::uint32_t walker, const Emission& e, Sampler& sampler) {
     const Vec2 lens = place_on_lens(scene, sampler);
@@ -81,7 +81,8 @@ CameraEdge emission_edge(const Scene& scene, std::uint32_t walker, const Emissio
     return *edge;
 }
 
-// T: casts the visibility rays of the edges, which are all from vertex j, and calls splatted(k) for those that are visible.
+// Casts the shadow rays of the edges, which all start at the j-th vertices, and calls splatted(k) for those that are
+// visible.
 template <class Transport, class OnSplat, class Observer>
 void splat_what_is_seen(const Transport& T, const LightWalkers& walkers, const std::vector<CameraEdge>& edges, int j,
                         const OnSplat& splatted, const Observer& observer) {

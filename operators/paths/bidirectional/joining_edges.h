@@ -1,5 +1,5 @@
-// The edges that connect a vertex of the camera subpath to the light subpath: their contribution if they are visible, and their MIS
-// weight.
+// The edges that connect a vertex of the camera subpath to the light subpath, with their MIS weights and what they
+// contribute if they are visible.
 #pragma once
 
 #include "operators/paths/bidirectional/light_walk.h"
@@ -27,7 +27,8 @@ struct JoiningEdge {
     Found found;
 };
 
-// (1, t): z samples the lights. `rest`: the bounce is beyond N, where ways with s ≥ 2 are not used.
+// The edge of way (1, t): z samples the lights. `rest` means that the bounce is beyond N, where ways with s ≥ 2 are not
+// used.
 inline JoiningEdge edge_to_light(const Scene& scene, const EmissionSampler& emission, const LightSampler& lights, Heuristic h,
                                  const CameraWalker& z, const SurfaceSide& side, int bounce, bool rest, const Vec2& u) {
     const LightSample light = lights.sample(z.x.position, u);
@@ -48,8 +49,8 @@ inline JoiningEdge edge_to_light(const Scene& scene, const EmissionSampler& emis
     return {light.point, {bounce, 1, value, weight}};
 }
 
-// (s, t), s ≥ 2: z is connected to the light vertex y; `bounce` counts the reflections of the camera subpath, the one at z
-// included.
+// The edge of way (s, t), s ≥ 2: z is connected to the light vertex y. `bounce` counts the reflections of the camera
+// subpath, including that at z.
 inline JoiningEdge edge_to_vertex(const Scene& scene, Heuristic h, const CameraWalker& z, const SurfaceSide& side,
                                   const LightVertex& y, int bounce, int s) {
     const Vec3 d = y.x.position - z.x.position;
@@ -65,7 +66,7 @@ inline JoiningEdge edge_to_vertex(const Scene& scene, Heuristic h, const CameraW
     if (is_black(g)) return {};
     const double cosine_y = std::abs(glm::dot(y.x.normal, w)), cosine_z = std::abs(glm::dot(z.x.normal, w));
     const Rgb value = z.beta * f * g * y.beta * (std::abs(wi.z) * cosine_y / distance2);
-    // Densities from the camera to y and from the light to z, and those of the reverse directions at both.
+    // The densities from the camera to y and from the light to z, and those of the reverse directions at both.
     const double to_y = pdf(*side.bsdf, side.p, wo, wi) * cosine_y / distance2;
     const double to_z = light_pdf(scene.materials, y.x, y.wi, -w) * cosine_z / distance2;
     const double back_y = pdf(*at_y.bsdf, at_y.p, at_y.p.frame.to_local(-w), at_y.p.frame.to_local(y.wi));

@@ -1,5 +1,5 @@
-// Light tracing: every vertex of a path from a light is connected to the camera. It cannot make what the camera sees in a mirror or
-// through glass, nor the environment that the camera sees directly.
+// Light tracing: every vertex of a path from a light is connected to the camera. It cannot make light that the camera
+// sees in a mirror or through glass, nor the environment that the camera sees directly.
 #pragma once
 
 #include "core/base/hot.h"
@@ -14,9 +14,9 @@ struct LightTracingWork {
     std::vector<CameraEdge> edges;
 };
 
-// Traces a path for each sampler and calls splatted(path, position, quantity, value) with radiance times the number of pixels at a
-// position on the film, for bounces 0 … N and the rest N + 1. `rays` has N + 2 entries and is added to. Returns the number of walks
-// given up.
+// Traces a path for each sampler and calls splatted(path, position, quantity, value) with radiance times the number of
+// pixels at a position on the film, for bounces 0 … N and the rest N + 1. Adds the number of rays to `rays`, which has
+// N + 2 entries. Returns the number of walks given up.
 template <class Transport, class Sampler, class OnSplat, class Observer = NoObserver>
 NEUMANN_HOT std::uint64_t trace_light(const Scene& scene, const Transport& T, const EmissionSampler& emission,
                                       const LightSampler& lights, const Ending& ending, std::span<Sampler> samplers,

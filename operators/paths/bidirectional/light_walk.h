@@ -1,6 +1,5 @@
-// The random walk of K*: particles start at the lights with their power and are reflected. Before the j-th vertex there are j − 1
-// reflections, so what it reflects towards the camera is a sample of bounce j:
-//
+// The random walk of K*: particles start at the lights with their power and are reflected. There are j − 1 reflections
+// before the j-th vertex, so the light that it reflects towards the camera is a sample of bounce j:
 //     ⟨We, K^j Le⟩ = ⟨K*^j We, Le⟩ = E[ β_j fs(ω_j → camera) We ],   β_j = Le cosθ / pdf Π fs cosθ / pdf
 #pragma once
 
@@ -51,9 +50,9 @@ inline PathWeights weights_at_first(Heuristic h, const LightSampler& lights, con
     return {.last = counted(h, asked / density), .before = e.is_delta ? 0.0 : counted(h, 1.0 / density)};
 }
 
-// Traces a path for each sampler; they advance together. `weights`: the heuristic of LightVertex::weights, if these are needed.
-// Calls visit(j) when all paths alive are at vertex j (vertex 0 is on the light), and rays(j, n) to count n rays. Returns the
-// number of paths given up.
+// Traces a path for each sampler; the paths advance together. `weights` is the heuristic of LightVertex::weights, if
+// these are needed. Calls visit(j) when all paths alive are at vertex j (vertex 0 is on the light), and rays(j, n) to
+// count n rays. Returns the number of paths given up.
 template <class Transport, class Sampler, class Visit, class CountRays, class Observer>
 std::uint64_t walk_from_lights(const Scene& scene, const Transport& T, const EmissionSampler& emission, const LightSampler& lights,
                                const Ending& ending, std::optional<Heuristic> weights, std::span<Sampler> samplers,
@@ -74,7 +73,7 @@ std::uint64_t walk_from_lights(const Scene& scene, const Transport& T, const Emi
     walkers.keep_if([&](const LightWalker& w, std::uint32_t) { return !is_black(w.beta); });
 
     for (int j = 1; ending.reach(j, walkers, samplers, given_up); ++j) {
-        // T*: find the surfaces where the power arrives.
+        // T* finds the surfaces at which the power arrives.
         rays(j, walkers.alive.size());
         walkers.follow(T, j - 1, observer, [&](LightWalker& w, std::uint32_t) {
             if (w.x.is_infinite()) return false;
@@ -91,7 +90,7 @@ std::uint64_t walk_from_lights(const Scene& scene, const Transport& T, const Emi
         visit(j);
         if (ending.is_last(j)) break;
 
-        // R*: sample the next directions.
+        // R* samples the next directions.
         walkers.keep_if([&](LightWalker& w, std::uint32_t i) {
             const SurfaceSide side = scene.materials.side(w.x, w.wi);
             const Vec2 u = samplers[i].next2();

@@ -1,4 +1,4 @@
-// Which ways (s, t) the paths of Bidirectional make.
+// The ways (s, t) that the paths of Bidirectional make.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ struct AllWays {
     static constexpr int camera_vertices(std::uint32_t /*path*/) { return std::numeric_limits<int>::max(); }
 };
 
-// One way to make this bounce, s[i] for path i. Subpaths are traced as far as it needs.
+// One way to make this bounce: path i has s[i] vertices from the light. Subpaths are traced as far as the way needs.
 struct OneWay {
     static constexpr bool all = false;
     int bounce = 1;

@@ -24,25 +24,25 @@ struct PathWeights {
     double last = 0.0;    // term of the connection at the last vertex
     double before = 0.0;  // sum over connections at earlier edges
 
-    // Update after a direction was sampled with `pdf`; `cosine`: of its angle; `reverse_pdf`: of sampling the previous direction
-    // from it.
+    // Updates the sums after a direction was sampled with density `pdf`. `cosine` is that of its angle, and
+    // `reverse_pdf` the density with which the previous direction would be sampled from it.
     void leave(Heuristic kind, double cosine, double pdf, double reverse_pdf) {
         before = counted(kind, cosine / pdf) * (before * counted(kind, reverse_pdf) + last);
         last = counted(kind, 1.0 / pdf);
     }
-    // Update after a delta lobe (mirror, glass), where no connection is possible.
+    // Updates the sums after a delta lobe (mirror, glass), where no connection is possible.
     void leave_by_the_only_direction(Heuristic kind, double cosine) {
         before *= counted(kind, cosine);
         last = 0.0;
     }
-    // Update at the next vertex.
+    // Updates the sums at the next vertex.
     void arrive(Heuristic kind, double distance_squared, double cosine) {
         last *= counted(kind, distance_squared / cosine);
         before /= counted(kind, cosine);
     }
 
-    // Σ h(p_k / p_s) of this subpath. `density`: of the last vertex, sampled from the other subpath, per area; `reverse_pdf`: of
-    // the direction from the last vertex to the previous one, per solid angle.
+    // Σ h(p_k / p_s) of this subpath. `density`, per area, is that with which the last vertex is sampled from the other
+    // subpath. `reverse_pdf`, per solid angle, is that of the direction from the last vertex to the previous one.
     double sum(Heuristic kind, double density, double reverse_pdf) const {
         return counted(kind, density) * (last + before * counted(kind, reverse_pdf));
     }

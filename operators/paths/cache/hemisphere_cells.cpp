@@ -17,7 +17,7 @@ HemisphereCells::HemisphereCells(std::uint32_t rays)
         edge_.push_back(direction_on_circle(k / N));
     }
     for (std::uint32_t j = 0; j <= rings_; ++j) sine_.push_back(std::sqrt(static_cast<double>(j) / rings_));
-    // ∫ sin²θ dθ over the ring.
+    // ∫ sin²θ dθ from the pole to the beginning of ring j.
     const auto integral = [&](std::uint32_t j) {
         return 0.5 * (std::asin(sine_[j]) - sine_[j] * std::sqrt(1.0 - static_cast<double>(j) / rings_));
     };
@@ -44,8 +44,8 @@ void HemisphereCells::for_boundaries(const Ring& ring, const Sector& sector) con
         }
 }
 
-// Where rings meet, dl × q/|q| in the tangent plane is sinθ cosθ dφ along the boundary's direction û; where sectors meet, dθ along
-// v̂, which is û turned by 90°.
+// At a boundary between rings, dl × q/|q| in the tangent plane is sinθ cosθ dφ along the boundary's direction û; at one
+// between sectors, it is dθ along v̂, which is û turned by 90°.
 void HemisphereCells::translation(std::span<const double> inverse_distances, std::span<Vec2> weights) const {
     std::ranges::fill(weights, Vec2(0.0));
     const auto add = [&](std::size_t cell, std::size_t next, const Vec2& w) {

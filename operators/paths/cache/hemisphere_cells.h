@@ -1,11 +1,12 @@
-// The hemisphere over a point in M × N cells of equal projected solid angle, and what the radiance L_jk of a ray in each says of
-// the irradiance there and nearby:
+// The hemisphere over a point in M × N cells of equal projected solid angle, and what the radiance L_jk of a ray in
+// each cell contributes to the irradiance there and nearby:
 //
 //     E = π/(MN) Σ L_jk,    sin²θ from j/M to (j + 1)/M, φ from 2π k/N to 2π (k + 1)/N
 //
-// Its derivatives are those of light that is constant in each cell (Ward and Heckbert, Irradiance Gradients, 1992). If the normal
-// turns, the cosines change: ∂E/∂n = ∫ L ω dω, of which the part in the tangent plane counts. If the point moves by u, the boundary
-// between two cells is seen to move as the nearer of the two surfaces there, at the distance r:
+// The derivatives of E are those of light that is constant in each cell (Ward and Heckbert, Irradiance Gradients,
+// 1992). If the normal turns, the cosines change: ∂E/∂n = ∫ L ω dω, of which the part in the tangent plane counts. If
+// the point moves by u, the boundary between two cells is seen to move as the nearer of the two surfaces there, at the
+// distance r:
 //
 //     ∂E/∂u = Σ ΔL ∫ (n·q) (dl × q)·u / |q|⁴,   q from the point to the boundary, |q| = r, ΔL the difference across it
 //
@@ -23,32 +24,33 @@ namespace neumann {
 
 class HemisphereCells {
 public:
-    // About so many rays, with N ≈ π M so that cells are about as wide as high.
+    // Makes about `rays` cells, with N ≈ π M so that cells are about as wide as high.
     explicit HemisphereCells(std::uint32_t rays);
 
     std::size_t size() const { return std::size_t{rings_} * sectors_; }
 
-    // A direction about +z in a cell, its pdf there in proportion to the cosine.
+    // A direction about +z in a cell, with a pdf in proportion to the cosine.
     Vec3 direction(std::size_t cell, const Vec2& u) const;
-    // π/(MN): what L of a cell brings to E.
+    // π/(MN), the weight of L of a cell in E.
     double weight() const;
-    // What it brings to ∂E/∂n, along x and y.
+    // The weights of L of a cell in ∂E/∂n, along x and y.
     const Vec2& rotation(std::size_t cell) const { return rotation_[cell]; }
-    // What L of each cell brings to ∂E/∂u, along x and y; 1/r of each cell, 0 where nothing was hit.
+    // Finds the weights of L of each cell in ∂E/∂u, along x and y, from 1/r of each cell, which is 0 where nothing was
+    // hit.
     void translation(std::span<const double> inverse_distances, std::span<Vec2> weights) const;
     // ∂²E/∂x², ∂²E/∂x∂y and ∂²E/∂y².
     Vec3 hessian(std::span<const double> radiance, std::span<const double> inverse_distances) const;
 
 private:
-    // Calls ring(cell, next, sin²θ, k) for the boundaries between rings and sector(cell, next, j, φ's direction) for those between
-    // sectors; `next` is farther from the pole, or counter-clockwise.
+    // Calls ring(cell, next, sin²θ, k) for the boundaries between rings and sector(cell, next, j, φ's direction) for
+    // those between sectors; `next` is farther from the pole, or counter-clockwise.
     template <class Ring, class Sector>
     void for_boundaries(const Ring& ring, const Sector& sector) const;
 
     std::uint32_t rings_, sectors_;  // M, N
     std::vector<Vec2> rotation_;
-    std::vector<Vec2> middle_, edge_;  // of sectors: (cos φ, sin φ) in the middle, and where they begin
-    std::vector<double> sine_;         // of θ where rings begin, and π/2
+    std::vector<Vec2> middle_, edge_;  // (cos φ, sin φ) in the middle of each sector, and where it begins
+    std::vector<double> sine_;         // sin θ where each ring begins, and at π/2
     double sector_sine_;               // ∫ cos φ over a sector about 0: 2 sin(π/N)
 };
 

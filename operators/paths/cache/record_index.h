@@ -1,5 +1,6 @@
-// The records near a point: an R-tree of the cubes within which they are read (Boost.Geometry), and how far each is read in which
-// direction: not behind what stands on its surface, as another room's floor.
+// The records near a point: an R-tree of the cubes within which they are read (Boost.Geometry), and how far each is
+// read in each direction. A record is not read behind objects that stand on its surface, for example on another room's
+// floor.
 #pragma once
 
 #include "core/sampling/warp.h"
@@ -20,7 +21,7 @@ namespace neumann {
 
 class RecordPlaces::Index {
 public:
-    // Distances along the surface, up to which it is free, within sectors about the record; ∞ is allowed.
+    // The distances along the surface up to which it is free, in sectors about the record; ∞ is allowed.
     static constexpr std::size_t sectors = 16;
     using Reach = std::array<float, sectors>;
 
@@ -29,7 +30,7 @@ public:
         const Vec3 reach(wider * record.radius), low = record.x.position - reach, high = record.x.position + reach;
         tree_.insert({{{low.x, low.y, low.z}, {high.x, high.y, high.z}}, number});
     }
-    // Calls f for each record whose cube holds y.
+    // Calls f for each record whose cube has y in it.
     template <class F>
     void for_near(const Vec3& y, const F& f) const {
         const Point point(y.x, y.y, y.z);
@@ -37,7 +38,7 @@ public:
                     boost::make_function_output_iterator([&](const auto& of) { f(of.second); }));
     }
 
-    // Whether a point in this place, along x and y of the record's frame, lies on this side of what stands there.
+    // Whether the point (x, y) in the record's frame lies on this side of objects that stand on the surface.
     bool reaches(std::uint32_t number, double x, double y) const {
         const auto sector = static_cast<std::size_t>(part_of_circle(x, y) * sectors) % sectors;
         const double reach = double{reach_[number][sector]};

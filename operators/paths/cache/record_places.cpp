@@ -20,30 +20,32 @@ namespace neumann {
 
 namespace {
 
-constexpr std::uint64_t places_stream = 0x7265636f726473ull;  // another seed than the pictures'
-// Paths from the camera whose first diffuse vertices are to be covered: some a pixel, within bounds.
+constexpr std::uint64_t places_stream = 0x7265636f726473ull;  // differs from the seed of the pictures
+// The number of paths from the camera whose first diffuse vertices are to be covered: some per pixel, within bounds.
 constexpr std::uint32_t paths_a_pixel = 4, fewest_camera_paths = 1u << 14, most_camera_paths = 1u << 18;
 constexpr int most_reflections = 16;
-// Bounces of light, after that from the lights, that radii look at: later ones are smoother.
+// The number of bounces of light, after that from the lights, from which radii are found: later ones are smoother.
 constexpr int bounces_looked_at = 2;
-// Vertices seen by a record that are to be covered, too.
+// The number of vertices seen by a record that are to be covered, too.
 constexpr std::size_t vertices_of_record = 16;
-// Vertices farther than this from all records get one: records overlap, and what is read fades over from one to the next.
+// Vertices that no record reads with e below this get a record. It is below 1 so that records overlap and fade over
+// from one to the next.
 constexpr double reach_for_cover = 0.8;
 constexpr std::size_t fewest_at_once = 16, most_at_once = 512, vertices_at_once = 4096;
-// ℓ and the smallest radius, as parts of the median distance from the middle of what is seen.
+// ℓ and the smallest radius, as parts of the median distance of the vertices that are seen from their middle.
 constexpr double disk_part = 0.1, smallest_part = 0.005;
-// What is seen at a single place says nothing of the size of shapes: below this part of the scene's radius that is taken.
+// If that distance is below this part of the scene's radius, it says nothing of the size of shapes, and the scene's
+// radius is taken instead.
 constexpr double smallest_extent = 1e-4;
-// The radius of records that the camera does not read: what they say is averaged over a hemisphere.
+// The factor for the radii of records that the camera does not read: what they give is averaged over a hemisphere.
 constexpr double unseen_radius = 2.0;
-// With the Hessian: s, and the largest radius as a part of R. What other rooms see lies behind what is near.
+// With the Hessian: s, and the largest radius as a part of R.
 constexpr double turning_with_hessian = 0.25, part_of_distance = 0.5;
-// The sine above the surface of rays that look for what stands on it, and the cosine between normals of one surface.
+// The sine above the surface of rays that look for objects on it, and the cosine between normals of one surface.
 constexpr double rise = 0.05, same_surface = 0.7;
-// Records lie within this part of their radius above or below the surface at y.
+// Records that are read at y lie within this part of their radius above or below the surface at y.
 constexpr double flat = 0.2;
-// Of a ray in a pass, and of what it finds.
+// The memory for a ray in a pass and for what it finds.
 constexpr double bytes_of_ray = 96.0;
 
 }  // namespace
@@ -54,7 +56,7 @@ struct RecordPlaces::Seen {
     Frame frame{Vec3(0.0, 0.0, 1.0)};
 };
 
-// Chooses the places: vertices that no record covers get one, in order, many at once.
+// Chooses the places: vertices that no record covers get a record, in order, many at once.
 class RecordPlaces::Placer {
 public:
     Placer(const Scene& scene, RecordPlaces& places, SamplerKind sampler, std::uint64_t seed, double memory, const Watch& watch)
@@ -84,7 +86,7 @@ public:
                   true);
         places_.seen_ = places_.records_.size();
     }
-    // Covers what the records see, and what is seen from there.
+    // Covers the vertices that the records see, and those seen from there.
     void place_unseen() {
         while (!ahead_.empty()) {
             std::vector<Seen> some(std::move(ahead_));
@@ -208,7 +210,7 @@ private:
     }
     double clamped(double radius) const { return std::clamp(radius, smallest_part * extent_, extent_); }
 
-    // Sends out the rays of a record there.
+    // Traces the rays of a record at the vertex.
     void propose(const Seen& vertex, std::size_t number, Proposal& proposal, Work& work) {
         const HemisphereCells& cells = places_.cells_;
         const std::size_t count = cells.size();
@@ -235,7 +237,7 @@ private:
         proposal.reach = reach(vertex);
     }
 
-    // By rays that just rise above the surface. What bends up with it does not stand on it.
+    // Finds the reach by rays that just rise above the surface. A surface that bends up with it is not an object on it.
     Index::Reach reach(const Seen& vertex) const {
         constexpr std::size_t sectors = Index::sectors;
         std::array<double, sectors> free{};
@@ -280,7 +282,7 @@ private:
         const double mean = 0.5 * (h.x + h.z), spread = std::hypot(0.5 * (h.x - h.z), h.y),
                      curvature = 2.0 * std::max(std::abs(mean), spread);
         const double by_distance = part_of_distance * distance;
-        if (!(curvature > 0.0)) return by_distance;  // also where no light was found
+        if (!(curvature > 0.0)) return by_distance;  // also if no light was found
         const double by_hessian = std::sqrt(std::sqrt(8.0 * settings.accuracy * E / curvature) * places_.disk_);
         return std::min({by_hessian, by_gradient, by_distance});
     }

@@ -8,7 +8,7 @@ namespace neumann {
 std::vector<RecordPoint> record_points(const Scene& scene, const CacheSettings& settings, int bounces, std::uint64_t seed,
                                        double memory, const Watch& watch) {
     const auto places = std::make_shared<const RecordPlaces>(scene, settings, SamplerKind::sobol, seed, memory, watch);
-    // What the record says of bounce k is bounce k + 1 once it is reflected.
+    // The irradiance E_k of a record is bounce k + 1 once it is reflected.
     const WalkSettings walk{.bounces = bounces + 1, .rest_probability = 0.0};
     const RecordTracer tracer(scene, std::make_shared<const DirectLightSampler>(scene, walk.direct), walk, places,
                               SamplerKind::sobol, seed);

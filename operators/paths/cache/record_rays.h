@@ -1,4 +1,5 @@
-// The rays of a record: RecordTracer::trace_ray(), and what fills the cache and chooses the places of records have in common.
+// The rays of a record: RecordTracer::trace_ray(), and leave_record(), with which the cache is filled and the places of
+// records are chosen.
 #pragma once
 
 #include "operators/paths/cache/cache_walk.h"
@@ -9,11 +10,11 @@
 
 namespace neumann {
 
-// The pixel number for the random numbers of a record; those of pixels are smaller.
+// The pixel number that stands for a record in its random numbers; those of pixels are smaller.
 constexpr std::uint32_t pixel_of_record(std::size_t record) { return 0x80000000u + static_cast<std::uint32_t>(record); }
 
-// Casts one ray from x for each sampler, through its cell of the hemisphere about the frame, from `first` on, and moves walkers to
-// the hits. met(i, walker) is called for each.
+// Casts one ray from x for each sampler, each through its cell of the hemisphere about the frame, the first through
+// cell `first`, and moves the walkers to the hits. Calls met(i, walker) for each.
 template <class Sampler, class Observer, class Met>
 void leave_record(const Scene& scene, const HemisphereCells& cells, const SurfacePoint& x, const Frame& frame, std::size_t first,
                   std::span<Sampler> samplers, PlainWalkers& walkers, const Observer& observer, const Met& met) {
@@ -33,7 +34,7 @@ void leave_record(const Scene& scene, const HemisphereCells& cells, const Surfac
     });
 }
 
-// The brightest ray is not followed farther than to where it reads the cache itself.
+// The ray is followed only as far as the vertex at which it reads the cache.
 template <class Observer>
 void RecordTracer::trace_ray(std::uint64_t pass, std::uint32_t ray, const Observer& observer) const {
     const std::size_t rays = places_->cells().size(), record = ray / rays, cell = ray % rays;
@@ -50,7 +51,7 @@ void RecordTracer::trace_ray(std::uint64_t pass, std::uint32_t ray, const Observ
         [&](std::uint32_t i, const Walker& w, const Vec3& n, const Rgb&, int) {
             places_->find(w.x.position, n, false, 1.0, near);
             if (near.empty()) return false;
-            (void)sampler[i].next();  // which record is read
+            (void)sampler[i].next();  // chooses the record that is read
             return true;
         },
         [](auto...) {}, observer);

@@ -13,19 +13,19 @@ namespace neumann {
 
 namespace {
 
-// The rest has converged where an iteration changes it by no more than this, relative to its largest value.
+// The rest has converged if an iteration changes it by no more than this, relative to its largest value.
 constexpr float converged = 1e-6f;
 constexpr int most_iterations = 10'000;
 
 }  // namespace
 
-// What the rays of all records have found.
+// The results of the rays of all records.
 struct RecordTracer::Rays {
-    // Where a ray reads the cache; and what its radiance brings to the derivatives by the position.
+    // The record that a ray reads, and the weight of the ray's radiance in the derivatives by the position.
     struct Link {
         glm::vec3 weight{0.0f};  // β ρ/π
         std::uint32_t record[2] = {};
-        std::uint32_t bounce = 0;  // after so many reflections; 0: nowhere
+        std::uint32_t bounce = 0;  // number of reflections before the cache is read; 0: it is not read
         glm::vec2 translation{0.0f};
     };
     struct Light {
@@ -33,8 +33,8 @@ struct RecordTracer::Rays {
         glm::vec3 radiance;
     };
 
-    std::vector<Link> links;                // of a record, cell by cell
-    std::vector<std::vector<Light>> light;  // of each record: what was found without the cache
+    std::vector<Link> links;                // of all records, cell by cell
+    std::vector<std::vector<Light>> light;  // light of each record that was found without the cache
     std::vector<float> brightness;          // of each ray
 };
 
@@ -163,7 +163,7 @@ std::optional<CachePass> RecordTracer::trace(std::uint64_t pass, std::span<std::
         given_up += work.given_up;
     }
 
-    // What the record says, if its rays bring `work.radiance`.
+    // The irradiance of the record if its rays bring `work.radiance`.
     const auto irradiance = [&](std::size_t record, std::size_t radii, const Workspace& work) {
         Rgb value(0.0), derivative[4] = {Rgb(0.0), Rgb(0.0), Rgb(0.0), Rgb(0.0)};
         for (std::size_t i = 0; i < count; ++i) {
@@ -179,7 +179,7 @@ std::optional<CachePass> RecordTracer::trace(std::uint64_t pass, std::span<std::
         for (std::size_t j = 0; j < 4; ++j) E.derivative[j] = glm::vec3(derivative[j]);
         return E;
     };
-    // The cache as it is read: calls read(link, radii) for the sum of what is read of a ray.
+    // Adds the light that a record's rays read from the cache: read(link, radii) returns the sum of what a ray reads.
     const auto reflect = [&](std::size_t record, Workspace& work, const auto& read) {
         for (std::size_t i = 0; i < count; ++i) {
             const Rays::Link& link = rays.links[record * count + i];
@@ -217,8 +217,8 @@ std::optional<CachePass> RecordTracer::trace(std::uint64_t pass, std::span<std::
     }
     if (!has_rest_) return result;
 
-    // The rest S is what was found so far, c, and what S itself brings: S = c + A S. Only its values are read; what it says of
-    // places nearby follows at the end.
+    // The rest S is c, what was found so far, and what S itself contributes: S = c + A S. The iteration uses only its
+    // values; its derivatives are computed at the end.
     std::vector<glm::vec3> S[2], next[2];
     for (std::size_t radii = 0; radii < 2; ++radii) {
         for (const CachePass::Irradiance& c : result.of(CachePass::Radii(radii), kept_)) S[radii].push_back(c.value);

@@ -13,12 +13,14 @@ namespace {
 
 constexpr std::uint64_t field_stream = 0x636f7272656374ull;
 constexpr std::uint32_t most_light_samples = 64;
-// The density of points is a mixture of the uniform one and of the brightness of the fields.
+// The part of the uniform density in the density of points; the other part is proportional to the brightness of the
+// fields.
 constexpr double uniform_share = 0.3;
-// α of the tables of directions (guide/direction_tables.h).
+// α of the tables of directions (guided/direction_tables.h).
 constexpr double share_of_cosine = 0.5;
 
-// Bytes of an unknown: the fields, here and on coarser patches, their rasters, work space, T, and the tables of directions.
+// An unknown takes memory for the fields, here and on coarser patches, for their rasters, work space, T, and the tables
+// of directions.
 void check_memory(const ApproximationSettings& settings, double patches) {
     check_patch_memory(static_cast<std::size_t>(patches), settings.rays,
                        300.0 + 2.0 * (32.0 + 60.0 * (settings.bounces + 2.0)) + 8.0 * settings.rays +

@@ -1,5 +1,5 @@
-// What corrected terms start from: approximate fields f_k ≈ K^k Le on diffuse sides, and the density with which points are drawn
-// there. Any fields and any density above 0 leave the terms unbiased; better ones leave less to correct.
+// The start of corrected terms: approximate fields f_k ≈ K^k Le on diffuse sides, and the density with which points are
+// drawn there. Any fields and any density above 0 leave the terms unbiased; better ones leave less to correct.
 #pragma once
 
 #include "core/base/memory.h"
@@ -30,7 +30,7 @@ public:
     const ApproximationSettings& settings() const { return settings_; }
     // Null if no side is diffuse.
     const FieldRaster* fields() const { return fields_ ? &*fields_ : nullptr; }
-    // Null likewise.
+    // Null if no side is diffuse.
     const DirectionTables* tables() const { return tables_ ? &*tables_ : nullptr; }
     double area() const { return area_; }  // of the sides with fields, scene units squared
     std::uint64_t rays() const { return rays_; }
@@ -40,7 +40,7 @@ public:
         Vec3 normal;             // of its side
         double inverse_density;  // scene units squared
     };
-    // Draws a point: `choice` chooses the patch, in their order, and u the place on it.
+    // Draws a point: `choice` chooses the patch, in the order of patches, and u the place on it.
     Draw draw(double choice, const Vec2& u) const;
 
 private:

@@ -1,19 +1,19 @@
-// Corrected fields: K^k Le by approximate fields f_k and unbiased samples of their errors e_k = K^k Le − f_k, carried by points
-// that all walks share (shared_points.h):
+// Corrected fields: K^k Le from approximate fields f_k and unbiased samples of their errors e_k = K^k Le − f_k, carried
+// by points that all walks share (shared_points.h):
 //
 //     K^i Le = K f_{i−1} + K e_{i−1}
 //     e_i    = (K f_{i−1} − f_i) + K e_{i−1}
 //
-// A walk that leaves a diffuse surface x, mostly towards where the fields are bright, reads f_k at the next one, z, and ends there:
-// one ray is a sample of K f_k for all k. At x it also asks one of the shared points y for its errors:
+// A walk that leaves a diffuse surface x, mostly towards where the fields are bright, reads f_k at the next one, z, and
+// ends there: one ray is a sample of K f_k for all k. At x it also reads the errors of one of the shared points y:
 //
 //     K e_k (x) = ∫ ρ(x) g(x, y) V(x, y) e_k(y) dA(y),   g of operators/paths/walk/coupling.h
 //
-// g is unbounded where surfaces meet, so points carry only its part below c, min(g, c), and walks carry the rest: at z a walk goes
-// on with probability 1 − c/g, and what it then finds replaces f_k(z). A walk goes on in any case from surfaces that are not
-// diffuse, and to surfaces without fields, and where shading normals look away from it, as g is 0 there: where there are no fields
-// it is the plain walk (operators/paths/walk/walk.h). All is linear in f
-// and in the points' errors, so that nothing depends on the quality of either but the variance.
+// g is unbounded where surfaces meet, so points carry only its part below c, min(g, c), and walks carry the rest: at z
+// a walk goes on with probability 1 − c/g, and what it finds later replaces f_k(z). A walk goes on in any case from
+// surfaces that are not diffuse, to surfaces without fields, and to those whose shading normals look away from it, as g
+// is 0 there: where there are no fields, it is the plain walk (operators/paths/walk/walk.h). All is linear in f and in
+// the points' errors, so that only the variance depends on the quality of either.
 #pragma once
 
 #include "core/base/hot.h"
@@ -38,9 +38,9 @@ namespace neumann {
 struct FirstVertex {
     std::uint32_t lights = 1;      // light samples
     std::uint32_t directions = 4;  // walks that go on from it
-    std::uint32_t points = 1;      // of these, the walks that also ask a point
+    std::uint32_t points = 1;      // number of these walks that also read the errors of a shared point
     double clamp = 100.0;          // c, in units of 1 / (area of all sides with fields)
-    double survival = 1.0;         // roulette of the walks that go on instead of reading
+    double survival = 1.0;         // probability with which Russian roulette keeps walks that go on instead of reading
 };
 
 struct CorrectedWalker : Walker {
@@ -48,9 +48,10 @@ struct CorrectedWalker : Walker {
     bool is_split = false;    // it has passed its first diffuse vertex
     bool reads = false;       // it left a diffuse vertex, so that it may read fields at the next one
     double directions = 1.0;  // walks for each light sample at its last vertex
-    double clamp = 0.0;       // c there, per scene unit squared
-    double survival = 1.0;    // roulette of the share that goes on
-    // For how many of the walks from its last vertex it asks a shared point; the point, and the weight of its errors.
+    double clamp = 0.0;       // c at that vertex, per scene unit squared
+    double survival = 1.0;    // FirstVertex::survival if that was its first diffuse vertex, otherwise 1
+    // The number of walks from its last vertex for which it reads a shared point (0: it reads none); the point, and the
+    // weight of its errors.
     double asks_for = 1.0;
     std::uint32_t point = 0;
     Rgb point_weight{0.0};
@@ -58,7 +59,7 @@ struct CorrectedWalker : Walker {
 
 struct CorrectedWalkers : Together<CorrectedWalker> {
     std::vector<Sampler> samplers;      // one for each walker
-    std::vector<std::uint32_t> asking;  // walkers whose light sample, or shared point, needs a ray
+    std::vector<std::uint32_t> asking;  // walkers whose light sample or shared point needs a shadow ray
     std::vector<std::uint32_t> single, splitting;
     std::vector<float> fields;
 };
@@ -68,7 +69,7 @@ public:
     // c of walks after their first diffuse vertex, in units of 1 / area.
     static constexpr double later_clamp = 3.0;
 
-    // Keeps references. `fields`: null if there are none. `points`: null if walks carry all of the error.
+    // Keeps references. `fields` may be without fields. `points` is null if walks carry all of the error.
     CorrectedWalk(const Scene& scene, const DirectLightSampler& direct, const WalkSettings& settings, const Approximation& fields,
                   const SharedPoints* points, const FirstVertex& first)
         : scene_(scene),
@@ -80,9 +81,9 @@ public:
           first_(first),
           of_area_(fields.area() > 0.0 ? 1.0 / fields.area() : 0.0) {}
 
-    // Samples the terms 1 … N and the rest from walkers that stand at their first vertices (x and wo are set, β is 1), and adds
-    // them to the quantities of their paths. light_sampler(path, l) and sampler_of(path, g) give the samplers of the l-th light
-    // sample and of the g-th walk from the first diffuse vertex.
+    // Samples the terms 1 … N and the rest from walkers that stand at their first vertices (x and wo are set, β is 1),
+    // and adds them to the quantities of their paths. light_sampler(path, l) and sampler_of(path, g) return the
+    // samplers of the l-th light sample and of the g-th walk from the first diffuse vertex.
     template <class LightSamplers, class Samplers, class Observer = NoObserver>
     void operator()(CorrectedWalkers& walkers, const LightSamplers& light_sampler, const Samplers& sampler_of, TermSamples& out,
                     const Observer& observer = {}) const;
@@ -90,8 +91,8 @@ public:
 private:
     std::size_t quantities() const { return static_cast<std::size_t>(settings_.bounces) + 2; }
     bool has_rest() const { return settings_.rest_probability > 0.0; }
-    // R: the next direction, by what the fields say of the light that arrives (guide/direction_tables.h), and the shared point that
-    // is asked along with it. `wanted`: the number of later bounces that have pictures.
+    // R samples the next direction, from what the fields tell of the light that arrives (guided/direction_tables.h),
+    // and chooses the shared point to be read. `wanted` is the number of later bounces that have pictures.
     bool choose_direction(CorrectedWalker& w, int wanted, Sampler& sampler) const {
         const SurfaceSide side = scene_.materials.side(w.x, w.wo);
         if (!side.bsdf) return false;
@@ -111,7 +112,7 @@ private:
         w.leave(side, sampled);
         return true;
     }
-    // At the hit z of a walk that left a diffuse surface: reads the fields there and ends, or goes on.
+    // Reads the fields at the hit z of a walk that left a diffuse surface and ends, or goes on.
     template <class Found>
     bool goes_on(CorrectedWalker& w, Sampler& sampler, std::vector<float>& fields, const Found& found) const {
         const bool front = glm::dot(w.x.normal, w.wo) > 0.0;
@@ -153,7 +154,7 @@ NEUMANN_HOT void CorrectedWalk::operator()(CorrectedWalkers& walkers, const Ligh
     // L = Le + K L: apply K once more, then add Le at the next vertex, and read the rest of L there or go on.
     for (int bounce = 1; ending.reach(bounce, walkers, std::span(walkers.samplers), out.given_up); ++bounce) {
         const auto q = static_cast<std::size_t>(std::min(bounce, N + 1));
-        // Found after this reflection: light that was then reflected k times before.
+        // Adds light that is found after this reflection, and that was reflected k times before.
         const auto find_later = [&](std::uint32_t i, std::size_t k, const Rgb& x) {
             const auto reflected = static_cast<std::size_t>(bounce) + k;
             if (reflected > static_cast<std::size_t>(N) && !has_rest()) return;
@@ -175,7 +176,8 @@ NEUMANN_HOT void CorrectedWalk::operator()(CorrectedWalkers& walkers, const Ligh
             }
         };
 
-        // R at vertices of one walk: sample the lights; at first diffuse vertices, do so more often and split the walk.
+        // R at the vertices of a walk: samples the lights. At first diffuse vertices it does so more often and splits
+        // the walk.
         walkers.single.clear();
         walkers.splitting.clear();
         for (const std::uint32_t i : walkers.alive) {
@@ -211,7 +213,7 @@ NEUMANN_HOT void CorrectedWalk::operator()(CorrectedWalkers& walkers, const Ligh
         }
         walkers.alive = walkers.single;
 
-        // R: choose directions and points; T: which points are seen?
+        // R chooses directions and points, and T finds which points are visible.
         walkers.asking.clear();
         walkers.keep_if([&](CorrectedWalker& w, std::uint32_t i) {
             if (!choose_direction(w, N - bounce, walkers.samplers[i])) return false;
@@ -235,7 +237,7 @@ NEUMANN_HOT void CorrectedWalk::operator()(CorrectedWalkers& walkers, const Ligh
             });
         out.rays[q] += walkers.asking.size();
 
-        // T: follow the direction; Le: add the light that it hits; then read the fields, or go on.
+        // T follows the direction. The light that it hits, Le, is added; then the fields are read, or the walk goes on.
         walkers.keep_if([&](CorrectedWalker& w, std::uint32_t i) {
             return w.pdf != 0.0 && !is_black(w.beta) && ending.live(bounce, w, w.reflected, walkers.samplers[i]);
         });

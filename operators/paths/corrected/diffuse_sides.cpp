@@ -4,7 +4,7 @@ namespace neumann {
 
 namespace {
 
-// Of the largest albedo of a material: what a patch of it gives back on average, roughly.
+// The part of the largest albedo of a material that a patch of it reflects on average, roughly.
 constexpr double share_of_albedo = 0.5;
 
 Bsdf diffuse_like(const Bsdf& bsdf) {

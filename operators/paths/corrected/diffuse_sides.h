@@ -1,6 +1,6 @@
-// The sides of surfaces with Lambert's material, whose reflected radiance is the same in all directions, so that one value at a
-// point tells all of K^k Le there. With interpolated normals it is so in the directions that lie on the same side by both normals,
-// see_alike(); corrected walks leave the others to walks that go on. Corrected fields and shared points stand on these sides.
+// The sides of surfaces with Lambert's material, whose reflected radiance is the same in all directions, so that one
+// value at a point is all of K^k Le there. With interpolated normals that is so in the directions for which see_alike()
+// is true; corrected walks leave the others to walks that go on. Corrected fields and shared points are on these sides.
 #pragma once
 
 #include "core/scene/scene.h"
@@ -9,7 +9,7 @@
 
 namespace neumann {
 
-// Of which shapes: all, or without those whose normals are interpolated.
+// The shapes whose sides are taken: all, or only those whose normals are not interpolated.
 enum class Normals { any, geometric };
 
 class DiffuseSides {
@@ -24,14 +24,14 @@ private:
     bool empty_ = true;
 };
 
-// Whether the direction w is on the shading side of p that its geometric normal, on this side, is on. Always so without
-// interpolated normals for w · normal > 0.
+// Whether the direction w is on the same side of p by the shading normal as by the geometric normal of this side,
+// `normal`. Without interpolated normals this is w · normal > 0.
 inline bool see_alike(const Materials& materials, const SurfacePoint& p, const Vec3& normal, const Vec3& w) {
     return glm::dot(materials.side(p, normal).p.frame.n, w) > 0.0;
 }
 
-// The same scene with diffuse materials of about the same albedo in place of all others. Its fields have one unknown a side of a
-// patch; they approximate those of the scene.
+// The same scene with diffuse materials of about the same albedo in place of all others. Its fields, which approximate
+// those of the scene, have one unknown for a side of a patch.
 Scene with_diffuse_materials(const Scene& scene);
 
 }  // namespace neumann

@@ -14,10 +14,10 @@ namespace neumann {
 namespace {
 
 constexpr std::uint64_t direct_light_stream = 0x726173746572ull;
-// Nodes per patch on average, of all fields.
+// The average number of nodes per patch in the raster of all fields.
 constexpr double nodes_of_patch = 2.0;
 constexpr double most_nodes_along = 1024.0;
-// Places on a part of a cluster from which lights are sampled.
+// The number of places on a part of a cluster at which lights are sampled.
 constexpr std::uint32_t places_of_part = 4;
 
 }  // namespace
@@ -75,7 +75,7 @@ SurfacePoint FieldRaster::node(std::uint32_t chart, const Grid& grid, std::uint3
     return space_->patches().charts()[chart].point(space_->geometry(), {at(column, grid.columns), at(row, grid.rows)});
 }
 
-// Across the faces of a part of a cluster, Roberts' R2 sequence.
+// The places lie across the faces of a part of a cluster, along Roberts' R2 sequence.
 SurfacePoint FieldRaster::place_in_part(std::uint32_t chart, const Grid& grid, std::uint32_t column, std::uint32_t i) const {
     const double s = (column + (i + 0.5) / places_of_part) / grid.columns;
     return space_->patches().charts()[chart].bare_point(space_->geometry(), {s, glm::fract(0.5 + 0.7548776662466927 * i)});
@@ -113,7 +113,8 @@ void FieldRaster::fill(const FieldStack& fields) {
 
 namespace {
 
-// K Le at a point with normal n on the lit side, without the reflectance: of light_samples samples, this part of their sum.
+// A part of K Le at a point with normal n on the lit side, without the reflectance: the contribution of samples `begin`
+// … `end` − 1 of light_samples.
 NEUMANN_HOT Rgb light_at_node(const Geometry& geometry, const LightSampler& lights, const SurfacePoint& p, const Vec3& n,
                               std::uint32_t begin, std::uint32_t end, Sampler& sampler, std::uint64_t& rays) {
     std::array<LightSample, RayCaster::packet_size> waiting;

@@ -1,6 +1,6 @@
-// Fields f_k ≈ K^k Le, k ≥ 1, on diffuse sides, interpolated bilinearly on a raster over each chart, so that a hit reads all
-// bounces from four neighbouring places. K Le has a finer raster of its own, as its shadows have edges. On clusters of faces fields
-// are constant, and K Le is constant on parts of clusters.
+// Fields f_k ≈ K^k Le, k ≥ 1, on diffuse sides, interpolated bilinearly on a raster over each chart, so that a hit
+// reads all bounces from four neighbouring places. K Le has a finer raster of its own, as its shadows have edges. On
+// clusters of faces the fields are constant, and K Le is constant on parts of clusters.
 #pragma once
 
 #include "operators/fields/matrix/field_stack.h"
@@ -15,7 +15,7 @@ namespace neumann {
 
 class FieldRaster {
 public:
-    // Rays for K Le, about, for each side of a patch: light_samples of each node of the finer raster.
+    // About the number of rays for K Le for each side of a patch: light_samples for each node of the finer raster.
     static constexpr std::uint32_t light_samples = 16, fine_nodes_of_patch = 24,
                                    rays_of_facet = light_samples * fine_nodes_of_patch;
 
@@ -30,7 +30,7 @@ public:
 
     // Whether there are fields, and patches on which points may be drawn, on this side.
     bool covers(const SurfacePoint& p, bool front) const { return has_side_[space_->patches().chart_of(p)][front ? 0 : 1]; }
-    // Whether the normals at p may be interpolated.
+    // Whether the normals on the shape of p may be interpolated.
     bool is_smooth(const SurfacePoint& p) const { return is_smooth_[p.shape]; }
     // f_1(p), f_2(p), … on a side that has fields: three floats each, 3 size() in all.
     void read(const SurfacePoint& p, bool front, float* fields) const {
@@ -51,11 +51,12 @@ public:
     }
 
 private:
-    // Nodes at the chart's coordinates (i/(columns−1), j/(rows−1)). Of clusters, one for each, or for each of equal parts of s.
+    // Nodes at the chart's coordinates (i/(columns−1), j/(rows−1)); for clusters, one for each cluster, or for each of
+    // equal parts of s.
     struct Grid {
         std::uint32_t columns = 0, rows = 0;
         std::uint32_t first_patch = 0;
-        std::array<std::size_t, 2> first{};  // of the front and of the back
+        std::array<std::size_t, 2> first{};  // first node of the front and of the back
     };
     struct Place {
         float s, t;  // in [0, 1]
@@ -94,7 +95,7 @@ private:
 
     const PatchSpace* space_;
     std::size_t stride_;
-    std::vector<std::array<bool, 2>> has_side_;  // one per chart, as everything by chart below
+    std::vector<std::array<bool, 2>> has_side_;  // one per chart
     std::vector<bool> is_smooth_;                // by shape
     std::vector<Grid> grids_, fine_grids_;
     std::vector<float> values_, fine_;

@@ -11,9 +11,9 @@ namespace neumann {
 
 namespace {
 
-// Independent random numbers for places, light samples and walks.
+// Places, light samples and walks have independent random numbers.
 constexpr std::uint64_t place_stream = 0x706c61636573ull, light_stream = 0x6c6967687473ull, walk_stream = 0x77616c6b73ull;
-// The last set has none behind it, and its walks go on to their end.
+// The last set has no other set behind it, so its walks go on to their end.
 constexpr std::size_t most_sets = 8;
 constexpr double survival_in_last_set = 1.0 / 8.0;
 constexpr std::uint32_t points_at_once = 4;
@@ -22,7 +22,7 @@ constexpr std::uint32_t points_at_once = 4;
 
 struct PointMaker::Workspace {
     CorrectedWalkers walkers;
-    std::vector<Sampler> light, walk;  // of the points
+    std::vector<Sampler> light, walk;  // of each point
     std::vector<Rgb> terms;
     std::vector<float> fields;  // at a point
     std::vector<std::uint64_t> rays;

@@ -15,11 +15,11 @@ namespace neumann {
 
 class PointMaker {
 public:
-    // `samples`: light samples and walks of each point, both powers of two. Keeps references.
+    // `samples` has the numbers of light samples and walks of each point, both powers of two. Keeps references.
     PointMaker(const Scene& scene, const DirectLightSampler& direct, const WalkSettings& walk, const Approximation& fields,
                SamplerKind sampler, std::uint64_t seed, std::uint32_t points, const FirstVertex& samples);
 
-    // Set 0. Adds the rays to `rays` and walks given up to `given_up`. Nothing if `watch` stops it.
+    // Makes set 0. Adds to `rays` and, for the walks given up, to `given_up`. Returns nothing if `watch` stops it.
     std::optional<SharedPoints> make(std::uint64_t replicate, std::uint64_t& rays, std::uint64_t& given_up,
                                      const Watch& watch) const;
     std::size_t sets() const { return sets_; }

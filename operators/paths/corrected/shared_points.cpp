@@ -26,7 +26,7 @@ SharedPoints::SharedPoints(std::vector<Point> points, std::vector<Rgb> errors)
     }
 }
 
-// Point by point the root of Σ_k (ê_k / m_k)², with m_k the mean of |ê_k|, so that all bounces count alike.
+// For each point the root of Σ_k (ê_k / m_k)², with m_k the mean of |ê_k|, so that all bounces have equal weight.
 std::vector<double> SharedPoints::error_sizes() const {
     const auto size_of = [&](std::size_t i, std::size_t k) { return max_component(glm::abs(errors_at(i)[k])); };
     std::vector<double> means(fields()), sizes(size());
@@ -56,7 +56,7 @@ NEUMANN_HOT SharedPoints::Chosen SharedPoints::choose(const Vec3& x, const Vec3&
     }
     double sum = 0.0;
     for (std::size_t i = 0; i < candidates; ++i) sum += brings[i];
-    // What is left of u chooses among them.
+    // The remaining randomness of u chooses among the candidates.
     double left = (at - static_cast<double>(place)) * sum;
     std::size_t chosen = candidates;
     for (std::size_t i = 0; i < candidates; ++i) {

@@ -13,14 +13,14 @@ class SharedPoints {
 public:
     struct Point {
         SurfacePoint y;
-        Vec3 normal;             // of its side
-        Vec3 shading;            // of the shading side that this normal is on
+        Vec3 normal;             // geometric normal of its side
+        Vec3 shading;            // shading normal of the side of `normal`
         double inverse_density;  // 1 / (density with which it was drawn), scene units squared
     };
     static constexpr std::size_t candidates = 16;
 
-    // `points`: in the order of the patches; their number is a multiple of that of the candidates. `errors`: point by point, ê_1 …
-    // ê_N and Σ_{k>N} ê_k.
+    // `points` are in the order of the patches; their number is a multiple of the number of candidates. `errors` has
+    // for each point ê_1 … ê_N and Σ_{k>N} ê_k.
     SharedPoints(std::vector<Point> points, std::vector<Rgb> errors);
 
     std::size_t size() const { return points_.size(); }
@@ -28,21 +28,22 @@ public:
     const Point& operator[](std::size_t point) const { return points_[point]; }
     const Rgb* errors_at(std::size_t point) const { return errors_.data() + point * fields(); }
 
-    // The point that a walk asks at x, a surface side with this normal: of a few candidates that are spread over the list, one in
-    // proportion to what it brings if it is seen, which is resampled importance sampling (Talbot, Cline and Egbert, Importance
-    // resampling for global illumination, 2005).
+    // The point whose errors a walk reads at x, a surface side with this normal. Among a few candidates that are spread
+    // over the list, one is chosen in proportion to what it contributes if it is visible: resampled importance sampling
+    // (Talbot, Cline and Egbert, Importance resampling for global illumination, 2005).
     struct Chosen {
         std::uint32_t point;
-        // weight · V(x, y) · ê(y) estimates ∫ min(g, c) V e dA, g = cosθx cosθy / (π d²); 0 if no candidate brings anything.
+        // weight · V(x, y) · ê(y) estimates ∫ min(g, c) V e dA, g = cosθx cosθy / (π d²); 0 if no candidate
+        // contributes.
         double weight;
     };
-    // `clamp`: c. `u`: a random number.
+    // `clamp` is c, and `u` a random number in [0, 1).
     Chosen choose(const Vec3& x, const Vec3& normal, double clamp, double u) const;
 
 private:
     struct Candidates {
         double x[candidates], y[candidates], z[candidates], nx[candidates], ny[candidates], nz[candidates];
-        double size[candidates];   // of the errors
+        double size[candidates];   // size of the errors
         double worth[candidates];  // size over density
     };
 

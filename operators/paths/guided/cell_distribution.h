@@ -19,10 +19,10 @@ public:
     static constexpr DirectionCells grid{k};
     using Weights = std::array<double, cells>;
 
-    // Uniform.
+    // The uniform distribution.
     CellDistribution() : CellDistribution(uniform()) {}
-    // `weights` in the order of DirectionCells. They should not differ by more than a factor of some hundred, because probabilities
-    // below 2^-16 are rounded to 0.
+    // `weights` are in the order of DirectionCells. They should not differ by more than a factor of some hundred,
+    // because probabilities below 2^-16 are rounded to 0.
     explicit CellDistribution(const Weights& weights) {
         std::array<double, k> rows;
         for (std::uint32_t row = 0; row < k; ++row) {
@@ -37,7 +37,7 @@ public:
         Vec2 u;
         double inverse_density;
     };
-    // For uniform u in [0, 1)².
+    // Samples a place for a uniform u in [0, 1)².
     Place sample(const Vec2& u) const {
         const Choice row = choose(rows_, u.y), cell = choose(cells_[row.number], u.x);
         return {{cell.place, row.place}, row.inverse_density * cell.inverse_density};
@@ -72,7 +72,7 @@ private:
     static Choice choose(const Starts& starts, double u) {
         const double scaled = u * parts;
         const auto whole = static_cast<std::uint32_t>(scaled);
-        std::uint32_t i = ~0u;  // the first starts at 0
+        std::uint32_t i = ~0u;  // ~0, because the first interval starts at 0, so the loop adds at least 1
         for (std::uint32_t j = 0; j < k; ++j) i += whole >= starts[j] ? 1u : 0u;
         const double inverse_width = 1.0 / width(starts, i);
         constexpr double below_one = 1.0 - 0x1p-53;
@@ -80,7 +80,7 @@ private:
     }
 
     Starts rows_;
-    std::array<Starts, k> cells_;  // of each row
+    std::array<Starts, k> cells_;  // cells of each row
 };
 
 }  // namespace neumann

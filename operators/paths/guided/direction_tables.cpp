@@ -10,10 +10,10 @@ namespace neumann {
 
 namespace {
 
-// With fewer rays a table is smoothed: a cell whose few rays happen to see little is not dark.
+// With fewer rays than this, a table is smoothed: a cell whose few rays happen to see little is not dark.
 constexpr std::uint32_t rays_of_sharp_table = 4 * CellDistribution::cells;
 
-// Independent of the random numbers of walks with the same seed, and of the fields.
+// The random numbers are independent of those of walks with the same seed, and of those of the fields.
 constexpr std::uint64_t table_stream = 0x67756964652074ull;
 
 // w of each unknown, for each number of bounces still wanted. The last entries are for PatchSpace::nothing() and are 0.
@@ -75,7 +75,7 @@ CellDistribution::Weights smooth(const CellDistribution::Weights& seen) {
 NEUMANN_HOT void look_around(const PatchSpace& space, const SobolPoints& sobol, std::uint64_t seed, std::uint32_t facet,
                              const Attraction& attraction, double share_of_material, std::span<CellDistribution> tables) {
     std::array<CellDistribution::Weights, DirectionTables::most_tables> seen{};
-    // Only how often directions are sampled hangs on them.
+    // Rough rays are enough, because they only affect how often directions are sampled.
     for_rays_of_facet(space, sobol, seed, facet, {.of_a_point = 4, .rough = true}, [&](const Vec2& u, const Sight& sight) {
         const std::uint32_t cell = CellDistribution::grid.cell_of_square(u);
         for (std::size_t t = 0; t < tables.size(); ++t) seen[t][cell] += attraction[sight.unknown][t];

@@ -1,6 +1,7 @@
-// Tables for path guiding: incident radiance sampling (Dutré, Bekaert and Bala, Advanced Global Illumination, 8.6.2), with fields
-// on patches in place of photons. For each facet and each number of bounces still wanted there is a density of the next direction
-// on a grid of cells, a mixture of the cosine density and of what the facet's rays see:
+// Tables for path guiding: incident radiance sampling (Dutré, Bekaert and Bala, Advanced Global Illumination, 8.6.2),
+// with fields on patches in place of photons. For each facet and each number of bounces still wanted there is a density
+// of the next direction on a grid of cells, a mixture of the cosine density and a density in proportion to what the
+// facet's rays see:
 //
 //     pdf(ω) = cosθ/π (α + (1 − α) w / mean w),     w² = Σ_k (K^k Le)² / m_k,   k = 1 … number of bounces still wanted
 //
@@ -31,18 +32,18 @@ class DirectionTables {
 public:
     // There are tables for 1, 2, … bounces still wanted; the last one is also used for more.
     static constexpr int most_tables = 2;
-    // The number of terms of the series that are looked at; later ones are nearly isotropic.
+    // The number of terms of the series that are used; later ones are nearly isotropic.
     static constexpr int most_terms = 16;
     static int terms(int bounces) { return std::clamp(bounces - 1, 1, most_terms); }
 
-    // `fields` holds at least terms(settings.bounces) bounces. Keeps a reference to their space. Throws Stopped if `watch` stops
-    // it.
+    // `fields` has at least terms(settings.bounces) bounces. Keeps a reference to their space. Throws Stopped if
+    // `watch` stops it.
     DirectionTables(const FieldStack& fields, const TableSettings& settings, const Watch& watch = {});
-    // Bytes of the tables of a facet.
+    // The size of the tables of a facet in bytes.
     static constexpr std::size_t bytes_of_facet = most_tables * sizeof(CellDistribution);
 
-    // The table for the side of p on which `wo` is. `wanted` ≥ 1: number of bounces after the one that is sampled. Directions are
-    // in Frame(normal), with the normal of that side. Null if there is no table.
+    // The table for the side of p on which `wo` is; null if there is none. `wanted` ≥ 1 is the number of bounces after
+    // the one that is sampled. Directions are in Frame(normal), with the normal of that side.
     const CellDistribution* at(const SurfacePoint& p, const Vec3& wo, int wanted) const {
         const std::uint32_t facet = raster_.facet(p, glm::dot(p.normal, wo) > 0.0);
         if (facet == space_->facets().size()) return nullptr;

@@ -8,7 +8,7 @@ namespace neumann {
 
 namespace {
 
-// Independent of the random numbers of walks with the same seed, and of the tables.
+// The random numbers are independent of those of walks with the same seed, and of those of the tables.
 constexpr std::uint64_t guide_stream = 0x6775696465206bull;
 
 // Checks the memory for the fields (also on coarser patches), work space, T and the tables. Called before the patch space exists,

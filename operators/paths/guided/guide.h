@@ -1,4 +1,4 @@
-// What method guided walks by: fields on patches of the scene, and the tables of directions that follow from them.
+// The guide of method guided: fields on patches of the scene, and the tables of directions that follow from them.
 #pragma once
 
 #include "core/base/memory.h"
@@ -23,8 +23,8 @@ struct GuideSettings {
 
 class Guide {
 public:
-    // Keeps a reference to the scene. Throws InputError as scene_patches() does, and if the tables do not fit in memory, and
-    // Stopped if `watch` stops it.
+    // Keeps a reference to the scene. Throws InputError as scene_patches() does, and if the tables do not fit in
+    // memory; and Stopped if `watch` stops it.
     Guide(const Scene& scene, const GuideSettings& settings, const Watch& watch = {});
     Guide(const Guide&) = delete;
 

@@ -1,7 +1,7 @@
-// Chains of one bounce that advance together: Metropolis and Hastings' walk among the states (s, u) of bidirectional paths, in
-// proportion to f (independent_paths.h). A step moves all numbers a little and keeps the way, or draws way and numbers anew; both
-// are symmetric, so it is accepted with probability a = min(1, f'/f). What the expectation of this choice brings is kept as well:
-// the proposed state counts a, and the old one 1 − a (Veach 1997, 11.4).
+// Chains of one bounce that advance together: Metropolis and Hastings' walk among the states (s, u) of bidirectional
+// paths, in proportion to f (independent_paths.h). A step moves all numbers a little and keeps the way, or draws way
+// and numbers anew; both are symmetric, so it is accepted with probability a = min(1, f'/f). Both states contribute
+// their expectation: the proposed one has the weight a, and the old one 1 − a (Veach 1997, 11.4).
 #pragma once
 
 #include "operators/paths/metropolis/chain_starts.h"
@@ -14,39 +14,42 @@
 
 namespace neumann {
 
-// What a chain leaves behind when it goes on from a state, or does not take it up.
+// The contribution of a state from which a chain goes on, or which it rejected.
 struct LeftState {
-    std::uint32_t chain = 0;  // of the batch
-    std::uint32_t step = 0;   // in which it was proposed; 0 is the start
+    std::uint32_t chain = 0;  // number of the chain in the batch
+    std::uint32_t step = 0;   // step in which the state was proposed; 0 is the start
     Rgb value{0.0};           // w C / f times the share of all steps: the mean of values · b over the chain's steps is the term
     Vec2 position;            // on the film
 };
 
 class ChainBatch {
 public:
-    static constexpr double large_steps = 0.3;  // their share
+    static constexpr double large_steps = 0.3;  // part of the steps that are large
 
     ChainBatch(const Scene& scene, const Bidirectional& bidirectional, const FilmArea& area, int bounce)
         : scene_(&scene), bidirectional_(&bidirectional), area_(&area), bounce_(bounce) {}
 
-    // Begins chains at the states of these independent paths, and traces those again. `random`: for each chain, its own.
+    // Starts chains at states of these independent paths, which are traced again. `random` has random numbers for each
+    // chain.
     template <class Observer = NoObserver>
     void start(const IndependentPaths& paths, std::uint64_t replicate, std::span<const ChainStart> starts,
                std::vector<Sampler> random, std::span<std::uint64_t> counts, const Observer& observer = {});
-    // Step t of all chains, from 1 on; calls left(LeftState) for states that are left or not taken up.
+    // Makes step t, counted from 1, of all chains; calls left(LeftState) for states that are left or rejected.
     template <class OnLeft, class Observer = NoObserver>
     void step(std::uint32_t t, const OnLeft& left, std::span<std::uint64_t> counts, const Observer& observer = {});
-    // Leaves the last states.
+    // Calls left(LeftState) for the last states, and adds the statistics of all chains.
     template <class OnLeft>
     void end(const OnLeft& left, ChainStatistics& statistics);
 
-    // The states: f, the place on the film, and the way; and whether the last step brought it, and was a large one.
+    // The state of a chain: f, the position on the film, and the way; whether the last step was accepted, and whether
+    // it was a large one.
     double size(std::uint32_t chain) const { return states_[chain].size; }
     const Vec2& position(std::uint32_t chain) const { return states_[chain].position; }
     int way(std::uint32_t chain) const { return states_[chain].s; }
     bool is_new(std::uint32_t chain) const { return stay_[chain] == 1; }
     bool by_large(std::uint32_t chain) const { return is_large_[chain] != 0; }
-    // The chains whose last proposal has a contribution that is not a finite number: it counts as one without light.
+    // The chains whose last proposal has a contribution that is not a finite number; the proposal counts as one without
+    // light.
     std::span<const std::uint32_t> non_finite() const { return non_finite_; }
 
 private:

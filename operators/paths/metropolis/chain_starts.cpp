@@ -16,7 +16,7 @@ std::vector<WantedStart> choose_starts(const BrightnessSums& sums, std::uint32_t
     for (std::size_t bounce = 1; bounce < sums.bounces(); ++bounce) {
         const double total = sums.total(bounce);
         if (!(total > 0.0)) continue;
-        std::uint32_t group = 0, last = 0;  // last: the last group before this one in which there is light
+        std::uint32_t group = 0, last = 0;  // last is the last group before this one that has light
         double before = 0.0;
         for (std::uint32_t chain = 0; chain < chains; ++chain) {
             const double at = total * ((chain + u[bounce]) / chains);

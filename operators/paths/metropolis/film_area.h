@@ -22,7 +22,7 @@ public:
 
     double pixels() const { return size_.x * size_.y; }
     Vec2 at(const Vec2& u) const { return from_ + u * size_; }
-    // The inverse: outside [0, 1]² for positions outside.
+    // The inverse of at(); outside of [0, 1]² for positions outside.
     Vec2 place_of(const Vec2& position) const { return (position - from_) / size_; }
     bool holds(const Vec2& position) const {
         const Vec2 u = place_of(position);

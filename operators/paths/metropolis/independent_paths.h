@@ -1,4 +1,5 @@
-// Independent bidirectional paths: they give the brightness of each bounce, the states from which its chains start, and the rest.
+// Independent bidirectional paths, which give the brightness of each bounce, the states from which its chains start,
+// and the rest.
 //
 // A path draws two subpaths from numbers u, and has a contribution w C(s, u) for each way (s, t). A chain of bounce k walks among
 // the states (s, u) in proportion to f(s, u) = the mean channel of w C(s, u), s + t = k + 2 (Hachisuka, Kaplanyan and Dachsbacher,
@@ -14,7 +15,7 @@
 
 namespace neumann {
 
-// Subpaths that are traced together.
+// The number of subpaths that are traced together.
 constexpr std::uint32_t chains_at_once = 64;
 
 // The contribution of one way, as radiance times the area of the film in pixels, with its MIS weight.
@@ -34,7 +35,7 @@ public:
         BidirectionalWork bidirectional;
     };
 
-    // Keeps references to the scene. `paths`: in each replicate.
+    // Keeps references to the scene. `paths` is the number of paths in each replicate.
     IndependentPaths(const Scene& scene, const WalkSettings& walk, SamplerKind sampler, std::uint64_t seed, std::uint32_t paths)
         : scene_(&scene),
           area_(scene.film),
@@ -49,15 +50,16 @@ public:
     std::uint32_t paths_of_group(std::uint32_t group) const { return std::min(chains_at_once, paths_ - group * chains_at_once); }
     const FilmArea& area() const { return area_; }
 
-    // The random numbers of both subpaths of this path of a replicate come from copies of these, started at its number.
+    // The random numbers of both subpaths of a path come from copies of these samplers, started at number(replicate,
+    // path).
     Sampler camera_numbers() const { return Sampler(kind_, net_, seed_, of_camera); }
     Sampler light_numbers() const { return Sampler(kind_, net_, seed_, of_light); }
     std::uint64_t number(std::uint64_t replicate, std::uint32_t path) const {
         return replicate * ((std::uint64_t{paths_} + stratified - 1) / stratified * stratified) + path;
     }
 
-    // Traces the paths of a group, which are numbered from 0, and calls found(path, WayFound) where there is light. Adds the rays
-    // of each bounce and of the rest to `counts`. Returns the number of walks given up.
+    // Traces the paths of a group and calls found(path, WayFound), with paths numbered from 0 in the group, where there
+    // is light. Adds the rays of each bounce and of the rest to `counts`. Returns the number of walks given up.
     template <class OnFound, class Observer = NoObserver>
     std::uint64_t trace_group(std::uint64_t replicate, std::uint32_t group, Workspace& work, const OnFound& found,
                               std::span<std::uint64_t> counts, const Observer& observer = {}) const {
@@ -89,7 +91,7 @@ public:
     }
 
 private:
-    // Paths that are stratified together, and the pixel numbers for their random numbers.
+    // The number of paths that are stratified together, and the pixel numbers for the random numbers of subpaths.
     static constexpr std::uint32_t stratified = 4096, of_camera = 0xffffffffu, of_light = 0xfffffffeu;
 
     const Scene* scene_;

@@ -18,7 +18,7 @@ public:
         large   // new numbers
     };
 
-    // The next path draws its numbers by this step; `source` must outlive it.
+    // Lets the next path draw its numbers by this step; `source` must live until the path is traced.
     void propose(Step step, Sampler& source) {
         step_ = step;
         source_ = &source;
@@ -32,7 +32,8 @@ public:
     }
     void accept() { state_.swap(proposed_); }
 
-    // Kelemen's symmetric step: between 1/1024 and 1/64, with a density like 1/step, across the ends of [0, 1) on the torus.
+    // Kelemen's symmetric step: its length is between 1/1024 and 1/64, with a density like 1/length, and it goes across
+    // the ends of [0, 1) as on a torus.
     static double moved(double x, double u) {
         constexpr double smallest = 1.0 / 1024.0, largest = 1.0 / 64.0;
         const double v = std::abs(2.0 * u - 1.0), step = largest * std::exp(std::log(smallest / largest) * v);

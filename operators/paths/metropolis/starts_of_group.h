@@ -1,4 +1,5 @@
-// The paths that chains take up, found again: only sums of f over groups of paths are kept (chain_starts.h).
+// Finds the paths at which chains start once more, because only sums of f over groups of paths are kept
+// (chain_starts.h).
 #pragma once
 
 #include "operators/paths/metropolis/chain_starts.h"
@@ -10,8 +11,8 @@
 
 namespace neumann {
 
-// Traces a group of a replicate's independent paths again and calls take(wanted, start) for each start that is wanted of it;
-// `wanted` is sorted by bounce and `left`. Adds the rays of each bounce to `rays`.
+// Traces a group of a replicate's independent paths again and calls take(wanted, start) for each of the `wanted` starts
+// in it; these are sorted by bounce and `left`. Adds the rays of each bounce to `rays`.
 template <class Take>
 void find_starts_of_group(const IndependentPaths& paths, std::uint64_t replicate, std::span<const WantedStart> wanted,
                           IndependentPaths::Workspace& work, std::span<std::uint64_t> rays, const Take& take) {
@@ -42,7 +43,7 @@ void find_starts_of_group(const IndependentPaths& paths, std::uint64_t replicate
         },
         rays);
     for (OfBounce& of : bounces)
-        while (!of.waiting.empty()) take_first(of);  // past the end, by rounding
+        while (!of.waiting.empty()) take_first(of);  // rounding may lead past the end
 }
 
 }  // namespace neumann

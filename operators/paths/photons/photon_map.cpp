@@ -9,10 +9,10 @@ namespace neumann {
 
 namespace {
 
-constexpr float least_cosine = 0.5f;  // of two normals on the same surface
-constexpr double flatness = 0.2;      // of the disk in which photons lie, as a part of the radius
+constexpr float least_cosine = 0.5f;  // least cosine between two normals on the same surface
+constexpr double flatness = 0.2;      // height of the disk in which photons lie, above and below x, as a part of the radius
 
-// What nanoflann calls a result set: hands over all points within a radius.
+// A result set of nanoflann that hands over all points within a radius.
 template <class Each>
 struct Within {
     using DistanceType = float;
@@ -38,7 +38,7 @@ struct Within {
 
 struct PhotonMap::Tree {
     struct Points {
-        const Photon* photons;  // which stay where they are if the map is moved
+        const Photon* photons;  // their address does not change if the map is moved
         std::size_t count;
         std::size_t kdtree_get_point_count() const { return count; }
         float kdtree_get_pt(std::size_t i, std::size_t axis) const { return photons[i].position[static_cast<int>(axis)]; }

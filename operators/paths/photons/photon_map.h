@@ -17,7 +17,7 @@ namespace neumann {
 
 struct Photon {
     glm::vec3 position, normal;  // geometric normal
-    glm::vec3 wi;                // towards where it came from
+    glm::vec3 wi;                // towards where the light came from
     glm::vec3 power;             // W: β divided by the number of paths
     std::uint32_t bounce;        // ≥ 1
     std::uint32_t path;          // number in its pass
@@ -35,9 +35,9 @@ public:
         const Photon* photon;
         double distance2;
     };
-    // Those within the radius that lie on about the same surface as x: with a normal up to 60° from its own or its opposite (meshes
-    // may be wound either way; the material knows its sides), and a fifth of the
-    // radius at most above or below it. In an order that depends on the map and x alone. `near` is overwritten.
+    // Finds the photons within the radius that lie on about the same surface as x: with a normal up to 60° from its own
+    // or its opposite (meshes may be wound either way; the material knows its sides), and a fifth of the radius at most
+    // above or below it. Their order depends only on the map and x. Overwrites `near`.
     void find(const SurfacePoint& x, double radius, std::vector<Near>& near) const;
     // The distance of the k-th nearest photon; ∞ if there are fewer.
     double distance(const Vec3& x, std::size_t k) const;
@@ -48,7 +48,7 @@ private:
     std::unique_ptr<const Tree> tree_;
 };
 
-// k(d) for d² ≤ r².
+// The kernel k(d) for d² ≤ r².
 inline double kernel(double distance2, double radius2) { return 2.0 / (pi * radius2) * (1.0 - distance2 / radius2); }
 
 }  // namespace neumann

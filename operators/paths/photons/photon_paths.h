@@ -1,4 +1,4 @@
-// The paths of a pass of photons, some at a time: PhotonTracer::trace_group().
+// The paths of a pass of photons, traced in groups: PhotonTracer::trace_group().
 #pragma once
 
 #include "operators/paths/bidirectional/light_walk.h"
@@ -9,17 +9,17 @@
 
 namespace neumann {
 
-// What a path leaves at its j-th vertex, where it has arrived; `share`: 1 / the number of paths.
+// The photon of a path at its j-th vertex, at which it has arrived; `share` is 1 / the number of paths.
 inline Photon photon_of(const LightWalker& w, int j, std::uint32_t path, double share) {
     return {glm::vec3(w.x.position),   glm::vec3(w.x.normal),         glm::vec3(w.wi),
             glm::vec3(w.beta * share), static_cast<std::uint32_t>(j), path};
 }
 
-// Work space of a thread.
+// The work space of a thread.
 struct PhotonTracer::Workspace {
     LightWalkers walkers;
     std::vector<Sampler> samplers;
-    std::vector<char> by_delta;  // whether each path has met delta lobes alone
+    std::vector<char> by_delta;  // whether each path has been reflected by delta lobes only
 };
 
 template <class Visit, class CountRays, class Observer>

@@ -15,17 +15,18 @@ namespace neumann {
 
 namespace {
 
-constexpr std::uint64_t pilot_stream = 0x70686f746f6e73ull;  // another seed than the pictures'
+constexpr std::uint64_t pilot_stream = 0x70686f746f6e73ull;  // differs from the seed of the pictures
 constexpr std::uint32_t fewest_paths = 1u << 16, most_paths = 1u << 20, most_paths_of_pilot = 1u << 18;
-// Of the pilot's paths, whatever N is: the radii depend on the scene and the seed alone.
+// The number of bounces of the pilot's paths, whatever N is: the radii depend only on the scene and the seed.
 constexpr int bounces = 16;
-// With its copies while a pass is made, and the tree.
+// The memory for a photon, with its copies while a pass is made, and the tree.
 constexpr double bytes_of_photon = 3.0 * sizeof(Photon);
 constexpr std::size_t places = 1024;
-// The largest radius, as a part of the median distance from the middle of what is seen: only what is much smaller than the shapes
-// and shadows has a bias of which two radii tell.
+// The largest radius, as a part of the median distance of the places that are seen from their middle: only a radius
+// that is much smaller than the shapes and shadows has a bias that two radii can show.
 constexpr double part_of_what_is_seen = 0.03;
-// What is seen at a single place says nothing of the size of shapes: below this part of the scene's radius that is taken.
+// If that distance is below this part of the scene's radius, it says nothing of the size of shapes, and the scene's
+// radius is taken instead.
 constexpr double smallest_extent = 1e-4;
 constexpr int most_mirrors = 16;
 
@@ -34,7 +35,7 @@ std::uint32_t default_paths(const Film& film) {
     return static_cast<std::uint32_t>(std::clamp<std::uint64_t>(wanted, fewest_paths, most_paths));
 }
 
-// The first points seen in some pixels, by way of delta lobes, where photons may lie.
+// The first points seen in some pixels, possibly by way of delta lobes, at which photons may lie.
 std::vector<Vec3> seen_places(const Scene& scene, std::uint64_t seed) {
     std::vector<Vec3> seen;
     const SobolPoints points(places);
@@ -113,7 +114,7 @@ PhotonPilot::PhotonPilot(const Scene& scene, const PhotonChoice& choice, Sampler
         settings.radius = settings.caustic_radius = *choice.radius;
         return;
     }
-    // The maps of the pictures are as much denser.
+    // The maps of the pictures are denser by this factor.
     part_of_distance_ = 1.0 / std::sqrt(more);
     const PhotonMap others(std::move(photons->others));
     std::vector<Vec3> seen = seen_places(scene, stream);

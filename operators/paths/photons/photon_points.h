@@ -1,4 +1,4 @@
-// Photons as points to look at: where they lie, and where on the film the camera sees them.
+// Photons as points for inspection: where they lie, and where on the film the camera sees them.
 #pragma once
 
 #include "operators/paths/photons/photon_tracer.h"
@@ -9,12 +9,13 @@
 namespace neumann {
 
 struct PhotonPoint {
-    Photon photon;  // its power is W, as a part of that of all paths
+    Photon photon;  // its power, in W, is a part of that of all paths
     bool is_caustic;
-    std::optional<Vec2> pixel;  // position on the film, as FilmPoint::position; nothing if something is in between, or outside
+    std::optional<Vec2> pixel;  // position on the film, as FilmPoint::position; nothing if the point is hidden or outside of the
+                                // film
 };
 
-// Of `paths` paths, those of bounces 1 … N, path by path. Throws Stopped. The same on any number of threads.
+// The photons of bounces 1 … N of `paths` paths, path by path. The same on any number of threads. Throws Stopped.
 std::vector<PhotonPoint> photon_points(const Scene& scene, int bounces, std::uint32_t paths, std::uint64_t seed,
                                        const Watch& watch = {});
 

@@ -7,9 +7,9 @@
 namespace neumann {
 
 struct PhotonSettings {
-    std::uint32_t paths = 0;  // from the lights, in each pass
-    // In the first pass: of photons that only delta lobes have reflected (caustics), at most, and of all others. Lengths of the
-    // scene.
+    std::uint32_t paths = 0;  // number of paths from the lights in each pass
+    // The radii of the first pass, in scene units: the largest one for photons that only delta lobes have reflected
+    // (caustics), and the one for all others.
     double caustic_radius = 0.0, radius = 0.0;
     bool gather = false;  // one more reflection is sampled before the map is read
 };
@@ -21,7 +21,7 @@ struct PhotonSettings {
 //
 // With α = 2/3 the squared bias falls as fast as the variance.
 constexpr double kept_variance = 2.0 / 3.0;  // α
-// r / r_1 in a pass, counted from 0.
+// The radius of a pass, counted from 0, divided by that of the first.
 inline double relative_radius(std::uint64_t pass) {
     const double i = static_cast<double>(pass) + 1.0;
     return std::exp(0.5 * (std::lgamma(i + kept_variance) - std::lgamma(1.0 + kept_variance) - std::lgamma(i + 1.0)));

@@ -17,8 +17,8 @@
 
 namespace neumann {
 
-// The power of the photons on their way, W, as the mean of the channels. What goes on from vertex j (0: is emitted) arrives at
-// vertex j + 1 or leaves the scene, and what arrives goes on or is absorbed.
+// The power of the photons on their way, in W, as the mean of the channels. The power that goes on from vertex j
+// (vertex 0 emits it) arrives at vertex j + 1 or leaves the scene, and the power that arrives goes on or is absorbed.
 struct PhotonPower {
     std::vector<double> went_on, arrived;  // by vertex; arrived[0] is 0
     double escaped(std::size_t j) const { return went_on[j] - (j + 1 < arrived.size() ? arrived[j + 1] : 0.0); }
@@ -27,24 +27,25 @@ struct PhotonPower {
 
 class PhotonTracer {
 public:
-    // Keeps a reference to the scene. The walks from the camera ask the lights for direct light, so photons of bounce 1 are kept
-    // only if settings.gather says so.
+    // Keeps a reference to the scene. Photons of bounce 1 are kept only if settings.gather is set, because otherwise
+    // the walks from the camera take light samples for direct light.
     PhotonTracer(const Scene& scene, const WalkSettings& walk, const PhotonSettings& settings, SamplerKind sampler,
                  std::uint64_t seed);
 
     struct Photons {
-        std::vector<Photon> caustic, others;  // settings.gather: others are all
-        std::vector<std::uint64_t> rays;      // for each bounce, and the rest
+        std::vector<Photon> caustic, others;  // if settings.gather, `others` has all photons
+        std::vector<std::uint64_t> rays;      // for each bounce and the rest
         std::uint64_t given_up = 0;
         PhotonPower power;
         bool reach_something = false;  // some path met a surface
     };
-    // Those of a pass; none if `watch` stopped it. The same on any number of threads.
+    // Traces the photons of a pass; returns nothing if `stop` returned true. The same on any number of threads.
     std::optional<Photons> trace(
         std::uint64_t pass, const std::function<bool()>& stop = [] { return false; }) const;
 
-    // Traces at_once paths of a pass, from number `first` on, a multiple of that, and calls visit(j, path, walker, is_caustic) for
-    // each at its j-th vertex, and rays(j, n) to count n rays to those. Returns the number of paths given up (photon_paths.h).
+    // Traces at_once paths of a pass from number `first` on, a multiple of at_once. Calls visit(j, path, walker,
+    // is_caustic) for each path at its j-th vertex, and rays(j, n) to count the n rays that lead there. Returns the
+    // number of paths given up. Defined in photon_paths.h.
     static constexpr std::uint32_t at_once = 64;
     struct Workspace;
     template <class Visit, class CountRays, class Observer>
@@ -52,7 +53,7 @@ public:
                               const Observer& observer) const;
 
 private:
-    // Paths that are stratified together, and the pixel number for their random numbers.
+    // The number of paths that are stratified together, and the pixel number for their random numbers.
     static constexpr std::uint32_t net = 4096, pixel = 0xfffffffeu;
 
     const Scene* scene_;

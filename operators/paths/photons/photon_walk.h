@@ -1,13 +1,13 @@
-// Walks from the camera that read photon maps. A walk goes on from mirrors and through glass to its first vertex x where light is
-// reflected in more than single directions. The light that x reflects has come
+// Walks from the camera that read photon maps. A walk goes on from mirrors and through glass to its first vertex x at
+// which light is reflected in more than single directions. The light that x reflects has come
 //
-//     from a light: asked for, as by other walks (ask_light.h);
-//     from a light, by way of delta lobes alone (a caustic): read from the map of caustics;
-//     in all other ways: read from the other map at x; or, if gathered, one more direction is sampled, and the map of all photons
-//     is read at the first such vertex that it finds.
+//     directly from a light: found by light samples, as by other walks (ask_light.h);
+//     from a light by way of delta lobes only (a caustic): read from the map of caustics;
+//     in all other ways: read from the other map at x; or, with gathering, one more direction is sampled, and the map of all
+//     photons is read at the first such vertex that it finds.
 //
-// A photon of bounce j that is read after b reflections belongs to bounce b + j. Each map is read with two radii, r and r/√2, and
-// the difference of the two pictures tells how far the first is from the truth.
+// A photon of bounce j that is read after b reflections belongs to bounce b + j. Each map is read with two radii, r and
+// r/√2, and the difference of the two pictures shows how far the first is from the truth.
 #pragma once
 
 #include "core/base/hot.h"
@@ -27,7 +27,7 @@
 
 namespace neumann {
 
-// The maps of a pass, and the radii with which they are read, as a part of those of the first pass.
+// The maps of a pass, and the radii with which they are read, relative to those of the first pass.
 struct PhotonPass {
     PhotonMap caustic, others;
     double relative_radius;
@@ -36,10 +36,11 @@ struct PhotonPass {
 struct PhotonWalkers : Walkers {
     std::vector<char> gathers;  // whether the walk has reflected in a direction that is not of a delta lobe
     std::vector<PhotonMap::Near> near;
-    std::vector<Rgb> light;  // what was read, of each quantity
+    std::vector<Rgb> light;  // light that was read, for each quantity
 };
 
-// The `quantities` of a walk are its terms 0 … N and the rest, and then what each loses if the radii are divided by √2.
+// The `quantities` of a walk are its terms 0 … N and the rest, followed by what each of them loses if the radii are
+// divided by √2.
 class PhotonWalk {
 public:
     // Keeps references.
@@ -115,11 +116,12 @@ NEUMANN_HOT void PhotonWalk::operator()(std::span<const CameraRay> rays, std::sp
                 if (is_black(walkers.light[of])) continue;
                 find(i, of, w.beta * walkers.light[of]);
                 const Rgb lost = w.beta * walkers.light[terms + of];
-                if (is_finite(lost)) out.quantities[i * quantities + terms + of] += lost;  // what is not is found in the term
+                // A loss that is not finite is noticed in the term itself.
+                if (is_finite(lost)) out.quantities[i * quantities + terms + of] += lost;
             }
             observer.reads(i, largest->path, largest->bounce, w.beta * of_largest);
         };
-        // R: read the maps, sample the lights and, along with the last light sample, the next direction.
+        // R reads the maps, samples the lights and, along with the last light sample, the next direction.
         const std::size_t questions = std::max<std::size_t>(direct_.questions(), 1);
         for (std::size_t question = 1; question <= questions; ++question) {
             walkers.keep_if([&](Walker& w, std::uint32_t i) {
@@ -149,7 +151,7 @@ NEUMANN_HOT void PhotonWalk::operator()(std::span<const CameraRay> rays, std::sp
             return ending.live(bounce, w, w.reflected, samplers[i]);
         });
 
-        // T: follow the direction; Le: add the light that it hits, unless a map has it.
+        // T follows the direction. The light that it hits, Le, is added unless a map has it.
         out.rays[q] += walkers.alive.size();
         walkers.follow(T, bounce, observer, [&](Walker& w, std::uint32_t i) {
             w.wo = -w.w;

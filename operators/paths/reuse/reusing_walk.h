@@ -1,15 +1,16 @@
-// Walks that use each other's tails (Bekaert, Sbert and Halton, Accelerating Path Tracing by Re-Using Paths, 2002). The walk of
-// each pixel p comes to its first diffuse vertex x_p after d_p − 1 reflections, and by the next one to y_p. What the tail of the
-// walk of q then brings to y_q leaves a diffuse y_q in all directions alike, so that all x_p of a group can use it:
+// Walks that use each other's tails (Bekaert, Sbert and Halton, Accelerating Path Tracing by Re-Using Paths, 2002). The
+// walk of each pixel p reaches its first diffuse vertex x_p after d_p − 1 reflections, and by the next one it reaches
+// y_p. The light that the tail of the walk of q then brings to y_q leaves a diffuse y_q in all directions alike, so
+// that all x_p of a group can use it:
 //
 //     K^{d_p + k} Le at pixel p  ≈  Σ_q β_p ρ_p g(x_p, y_q) V(x_p, y_q) L_q / Σ_r g(x_r, y_q) V(x_r, y_q),   k ≥ 1
 //
-// L_q: the tail's sample of K^k Le at y_q; g: operators/paths/walk/coupling.h. g V is the density with which the walk of r would
-// have found y_q. The weights are those of the balance heuristic, over all walks that came to a diffuse vertex, whatever they found
-// from there.
+// L_q is the tail's sample of K^k Le at y_q; g is in operators/paths/walk/coupling.h. g V is the density with which the
+// walk of r would have found y_q. The weights are those of the balance heuristic, over all walks that reached a diffuse
+// vertex, whatever they found from there.
 //
-// A group has one walk of each of some pixels: walks of one pixel would not have much to give to each other, as nearly the same g V
-// stands above and below.
+// A group has one walk of each of several pixels: walks of one pixel could not give each other much, because nearly the
+// same g V would be in the numerator and the denominator.
 #pragma once
 
 #include "core/base/hot.h"
@@ -33,11 +34,11 @@ struct Corner {
     SurfacePoint x, y;
     Vec3 nx{0.0}, ny{0.0};
     Rgb weight{0.0};      // β ρ
-    int reflections = 0;  // d; 0 if it came to no diffuse vertex whose tail has a picture
-    bool shares = false;  // it has found a diffuse y
+    int reflections = 0;  // d; 0 if the walk reached no diffuse vertex whose tail has a picture
+    bool shares = false;  // whether it has found a diffuse y
 };
 
-// Reports what walks from the corners do as parts of their paths. What they find is reported where it is used.
+// Reports the rays of the tails as parts of their paths. What they find is reported where it is used.
 template <class Observer>
 class TailObserver {
 public:
@@ -61,8 +62,8 @@ private:
     std::span<const Corner> corners_;
 };
 
-// Samples all terms along some camera rays, those of `size` samples of each pixel, pixel by pixel, where so many pixels in a row
-// share tails. walk_tails(settings, samplers, walkers, out, observer) is walk_on() of walk.h.
+// Samples all terms along some camera rays. `rays` has `size` samples of each pixel, pixel by pixel, and `sharing`
+// successive pixels share tails. walk_tails(settings, samplers, walkers, out, observer) is walk_on() of walk.h.
 template <class Sampler, class WalkTails, class Observer = NoObserver>
 NEUMANN_HOT void walk_reusing(const Scene& scene, const DirectLightSampler& direct, const DiffuseSides& diffuse,
                               const WalkSettings& settings, std::size_t size, std::size_t sharing, std::span<const CameraRay> rays,
@@ -77,7 +78,7 @@ NEUMANN_HOT void walk_reusing(const Scene& scene, const DirectLightSampler& dire
         observer.finds(i, q, light);
     };
 
-    // To the first diffuse vertex, with its direct light, and on to the next vertex.
+    // The walks go to the first diffuse vertex, with its direct light, and on to the next vertex.
     find_first_vertices(scene, scene.geometry, rays, walkers, out.rays[0], observer,
                         [&](std::uint32_t i, const Rgb& Le) { find(i, 0, Le); });
     plain_walk(
@@ -85,7 +86,7 @@ NEUMANN_HOT void walk_reusing(const Scene& scene, const DirectLightSampler& dire
         [&](std::uint32_t i, const Walker& w, const SurfaceSide& side, int bounce) {
             const auto* material = std::get_if<Diffuse>(side.bsdf);
             if (!material || bounce >= N) return false;
-            // Walks that end here for certain never find a y, and count in no weight.
+            // Walks that certainly end here never find a y, so they count in no weight.
             const Rgb weight = w.beta * material->reflectance(side.p);
             if (is_black(weight) || !(side.p.frame.to_local(w.wo).z > 0.0)) return false;
             corners[i] = {.x = w.x, .y = {}, .nx = side.p.frame.n, .weight = weight, .reflections = bounce};
@@ -93,7 +94,7 @@ NEUMANN_HOT void walk_reusing(const Scene& scene, const DirectLightSampler& dire
         },
         find, observer);
 
-    // The tails, as walks of their own with N − 1 bounces.
+    // The tails are walks of their own with N − 1 bounces.
     Walkers tails;
     tails.begin(rays.size());
     tails.keep_if([&](Walker& tail, std::uint32_t i) {
@@ -106,7 +107,8 @@ NEUMANN_HOT void walk_reusing(const Scene& scene, const DirectLightSampler& dire
         c.shares = diffuse.has(c.y.shape, front);
         tail.x = c.y;
         tail.wo = w.wo;
-        tail.beta = Rgb(max_component(w.beta) / max_component(c.weight));  // what roulette has made of 1
+        tail.beta = Rgb(max_component(w.beta) / max_component(c.weight));  // the factor by which Russian roulette has changed the
+                                                                           // weight
         return true;
     });
     if (tails.alive.empty()) return;
@@ -132,7 +134,7 @@ NEUMANN_HOT void walk_reusing(const Scene& scene, const DirectLightSampler& dire
     for (const std::uint32_t i : with_tail)
         if (!corners[i].shares) use(i, i, corners[i].weight);
 
-    // Which x sees which y? Its own is seen anyway.
+    // Finds which x sees which y. The x of y's own walk sees it anyway.
     struct Pair {
         std::uint32_t p, q;
         double g;
@@ -164,7 +166,7 @@ NEUMANN_HOT void walk_reusing(const Scene& scene, const DirectLightSampler& dire
             ++out.rays[std::min(static_cast<std::size_t>(c.reflections) + 1, rest)];
             if (!seen) pair.g = 0.0;
         });
-    // Pairs of one q follow each other.
+    // The pairs of one q follow each other.
     for (std::size_t begin = 0, end; begin < pairs.size(); begin = end) {
         double all = 0.0;
         for (end = begin; end < pairs.size() && pairs[end].q == pairs[begin].q; ++end) all += pairs[end].g;

@@ -1,5 +1,5 @@
-// How a path asks for light at a vertex x that it has reached with throughput β: its last reflection R chooses a question, and T
-// answers it.
+// Direct light at a vertex x that a path has reached with throughput β: the last reflection R chooses a light sample,
+// and T casts its shadow ray.
 //
 //     K Le:   β fs(ω → ωo) |cosθ| Le(y, −ω) V(x, y) / pdf(ω)
 #pragma once
@@ -10,12 +10,12 @@
 
 namespace neumann {
 
-// The same without V and |cosθ|. `light` is Le / pdf.
+// The same product without V and |cosθ|. `light` is Le / pdf.
 inline Rgb reflected_light(const Rgb& beta, const SurfaceSide& side, const Vec3& wo, const Vec3& wi, const Rgb& light) {
     return beta * eval(*side.bsdf, side.p, wo, wi) * light;
 }
 
-// R: chooses the walk's light sample and stores it in w.asked. Its MIS weight is against the pdf of `distribution`
+// R chooses the walk's light sample and stores it in w.asked. Its MIS weight is against the pdf of `distribution`
 // (continuation.h), which draws `directions` directions for each light sample.
 template <class Distribution, class Sampler>
 void choose_question(const DirectLightSampler& direct, std::size_t question, const Distribution& distribution, double directions,
@@ -31,7 +31,8 @@ void choose_question(const DirectLightSampler& direct, std::size_t question, con
     w.asked.w = q.w;
 }
 
-// T: casts the rays of the light samples and calls found(walk, value) for those that are seen. Returns the number of rays cast.
+// T casts the shadow rays of the light samples and calls found(walk, value) for those that are visible. Returns the
+// number of rays cast.
 template <class Transport, class AnyWalkers, class Observer, class Found>
 std::size_t answer(const Scene& scene, const Transport& T, const DirectLightSampler& direct, const LeftOut& left_out, int bounce,
                    AnyWalkers& walkers, const Observer& observer, const Found& found) {

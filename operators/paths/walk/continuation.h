@@ -1,13 +1,15 @@
-// How a walk goes on: the direction of its next reflection, and with which density it draws it. Each is a class with
+// The continuation of a walk: how the direction of its next reflection is drawn, and with which density. Each is a
+// class with
 //
-//     Place                       the result of place(x, wo, wanted) for a vertex, looked up for all walks before any reflection to
-//                                 hide the latency of memory; `wanted`: the number of later bounces that have pictures
+//     Place                       the result of place(x, wo, wanted) for a vertex, found for all walks before any reflection to
+//     hide
+//                                 the latency of memory; `wanted` is the number of later bounces that have pictures
 //     at(side, place)             an object for this vertex with the two functions below
 //     sample(side, wo, sampler)   wi in the frame of side.p, its weight fs |cosθ| / density, and its pdf; pdf 0 ends the walk
-//     pdf(side, wo, wi, y)        the same pdf, for the weights of multiple importance sampling: the density, per solid angle, with
-//                                 which sample() draws wi and the walk then finds y, or a density used in its place
-//     joins_points                if true, sample() writes the next vertex into one more argument, and a visibility ray is cast to
-//                                 it; otherwise the next vertex is the first hit along wi
+//     pdf(side, wo, wi, y)        the same pdf, for the weights of multiple importance sampling: the density, per solid angle,
+//                                 with which sample() draws wi and the walk then finds y, or a density used in its place
+//     joins_points                if true, sample() writes the next vertex into one more argument, and a visibility ray is cast
+//                                 to it; otherwise the next vertex is the first hit along wi
 //
 // The pdf of a mirror is delta_pdf: light that is found by it has MIS weight 1.
 #pragma once
@@ -24,7 +26,7 @@ namespace neumann {
 // The Place of continuations that do not depend on the vertex.
 struct Nowhere {};
 
-// The Places of some walks' vertices.
+// The Places of the vertices of some walks.
 template <class Continuation>
 class Places {
 public:
@@ -48,7 +50,7 @@ private:
     std::vector<Place> place_;
 };
 
-// Samples the BSDF.
+// The continuation that samples the BSDF.
 struct MaterialContinuation {
     static constexpr bool joins_points = false;
     using Place = Nowhere;
@@ -63,9 +65,9 @@ struct MaterialContinuation {
     }
 };
 
-// Samples the next vertex uniformly by area on all surfaces; a vertex that is not seen ends the walk (Dutré, surface sampling).
-// Delta lobes are missing, as a point lies in their direction with probability 0. The variance is infinite where surfaces meet,
-// because the weight grows as 1/d².
+// The continuation that samples the next vertex uniformly by area on all surfaces; a vertex that is not visible ends
+// the walk (Dutré, surface sampling). Delta lobes are missing, as a point lies in their direction with probability 0.
+// The variance is infinite where surfaces meet, because the weight grows as 1/d².
 class SurfaceContinuation {
 public:
     static constexpr bool joins_points = true;
@@ -95,9 +97,9 @@ private:
     AreaSampler surfaces_;
 };
 
-// Samples delta lobes (mirrors, glass) alone: classic ray tracing (Whitted, An Improved Illumination Model for Shaded Display,
-// 1980). A walk ends at its first other reflection, which has still sampled the lights. Paths with several such reflections are
-// missing, so the terms are too small.
+// The continuation that samples only delta lobes (mirrors, glass): classic ray tracing (Whitted, An Improved
+// Illumination Model for Shaded Display, 1980). A walk ends at its first other reflection, which has still sampled the
+// lights. Paths with several such reflections are missing, so the terms are too small.
 struct SpecularContinuation {
     static constexpr bool joins_points = false;
     using Place = Nowhere;

@@ -1,9 +1,9 @@
-// How two points on diffuse surfaces are coupled, but for visibility:
+// The coupling of two points on diffuse surfaces, without visibility:
 //
-//     g(x, y) = cosθx cosθy / (π d²),   per area at y; 0 behind either
+//     g(x, y) = cosθx cosθy / (π d²),   per area at y; 0 if either is behind the other
 //
-// Light that y gives off in all directions alike arrives at x and leaves it again with ρ g V. It is also the density, per area,
-// with which a direction that is sampled by its cosine at x finds y.
+// Light that y sends out in all directions alike arrives at x and leaves it again with ρ g V. g is also the density,
+// per area, with which a direction that is sampled by its cosine at x finds y.
 #pragma once
 
 #include "core/base/vec.h"

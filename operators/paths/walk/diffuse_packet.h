@@ -1,6 +1,7 @@
-// R for eight walks at once where it is simple: at flat surfaces of constant diffuse reflectance, with light from points on
-// surfaces that shine evenly. The arithmetic is that of choose_question() (ask_light.h) and of Diffuse::sample(), in the same
-// order, so the bits are the same; walks are side by side in memory, so that compilers make vector instructions of it.
+// R for eight walks at once where it is simple: at flat surfaces of constant diffuse reflectance, with light samples on
+// surfaces that shine evenly. The arithmetic is that of choose_question() (ask_light.h) and of Diffuse::sample(), in
+// the same order, so the results have the same bits. Walks are side by side in memory, so that compilers make vector
+// instructions of it.
 #pragma once
 
 #include "operators/paths/walk/direct_light.h"
@@ -12,9 +13,10 @@ class DiffusePacket {
 public:
     static constexpr std::size_t size = 8;
 
-    // Whether the light samples are of that kind.
+    // Whether the light samples are points on surfaces that shine evenly.
     static bool fits(const DirectLightSampler& direct) { return direct.asks_even_points(); }
-    // The material on the side of w.x on which w.wo lies, if it is of that kind; otherwise null.
+    // The material on the side of w.x on which w.wo lies, if the surface is flat and the material diffuse and constant;
+    // otherwise null.
     static const Diffuse* material(const Materials& materials, const Walker& w) {
         if (!materials.is_flat(w.x.shape)) return nullptr;
         const Bsdf* const bsdf = materials.at(w.x.shape, glm::dot(w.x.normal, w.wo) > 0.0);
@@ -23,7 +25,7 @@ public:
     }
 
     bool is_full() const { return count_ == size; }
-    // Adds a walk, and draws its numbers: of the light sample, then of the direction.
+    // Adds a walk, and draws the numbers of its light sample and then of its direction.
     template <class Sampler>
     void add(Walker& w, const Diffuse& material, const DirectLightSampler& direct, Sampler& sampler) {
         const std::size_t j = count_++;
@@ -48,7 +50,7 @@ public:
         w.reflected = max_component(albedo);
         w.from = {w.x.position, front ? w.x.normal : -w.x.normal};
     }
-    // R for the walks that were added; then the packet is empty. `directions`: as in choose_question().
+    // Reflects the walks that were added, and empties the packet. `directions` is as in choose_question().
     void reflect(const DirectLightSampler& direct, double directions) {
         compute(directions, direct.is_weighted() ? directions : 0.0);  // against a pdf of 0 the weight is 1
         for (std::size_t j = 0; j < count_; ++j) {
@@ -80,7 +82,7 @@ private:
     std::size_t count_ = 0;
     Walker* walker_[size];
     Vectors x_, normal_, y_, normal_of_y_, radiance_, beta_, albedo_;
-    // The cosine of wo; the density of y, per area; the numbers for the next direction, and its pdf.
+    // The cosine of wo; the density of y per area; the numbers for the next direction, and its pdf.
     alignas(32) double cosine_[size]{}, density_[size]{}, u_[2][size]{}, pdf_[size]{};
     Vectors value_, to_y_, next_;
 };

@@ -1,4 +1,4 @@
-// Direct light at the last reflection, ∫ fs Le |cosθ| dω: samples directions or points.
+// Direct light at the last reflection, ∫ fs Le |cosθ| dω, by samples of directions or of points.
 #pragma once
 
 #include "core/geometry/area_sampler.h"
@@ -11,18 +11,20 @@
 
 namespace neumann {
 
-// Whether the strategy cannot find some light: no ray meets a light without extent, and points on surfaces miss an environment.
+// Whether the strategy cannot find some light: no ray meets a light without extent, and points on surfaces miss an
+// environment.
 bool misses_light(DirectLight direct, const Emitters& emitters);
 
-// A light sample whose visibility is not known yet. A ray tells whether `point` is seen or, if directions are sampled, what is seen
-// along `w`; `weight` is Le / pdf of a point, or 1 / pdf of a direction, which multiplies the Le that is found.
+// A light sample before its shadow ray is cast. The ray finds whether `point` is visible or, if directions are sampled,
+// what is visible along `w`. `weight` is Le / pdf of a point, or 1 / pdf of a direction, which multiplies the Le that
+// is found.
 using LightQuestion = LightSample;
 
 class DirectLightSampler {
 public:
     DirectLightSampler(const Scene& scene, const DirectLightSettings& settings);
 
-    // Number of light samples at a vertex, besides the BSDF's direction; their contributions add up.
+    // The number of light samples at a vertex, besides the BSDF's direction; their contributions add up.
     std::size_t questions() const { return questions_; }
     bool asks_directions() const { return settings_.direct == DirectLight::hemisphere || settings_.direct == DirectLight::cosine; }
     // Whether light that the BSDF's direction hits counts.
@@ -44,11 +46,12 @@ public:
                 return lights_.sample(receiver(side), sampler.next2(), question);
         }
     }
-    // Whether ask() finds points that do not depend on the vertex, on surfaces that shine evenly; such a point.
+    // Whether ask() finds points on surfaces that shine evenly, independently of the vertex; ask_even_point() samples
+    // such a point.
     bool asks_even_points() const { return asks_even_points_; }
     EvenPoint ask_even_point(const Vec2& u) const { return lights_.sample_even_point(u); }
-    // The MIS weights of a light sample, and of light that the BSDF's direction has hit at y. `pdf_of_material`: of that direction,
-    // per solid angle.
+    // The MIS weights of a light sample, and of light that the BSDF's direction has hit at y. `pdf_of_material` is that
+    // of this direction, per solid angle.
     double weight_of_answer(double pdf, double pdf_of_material) const {
         return settings_.direct == DirectLight::mis ? heuristic(settings_.heuristic, pdf, pdf_of_material) : 1.0;
     }

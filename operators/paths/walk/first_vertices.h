@@ -11,7 +11,8 @@
 
 namespace neumann {
 
-// Calls found(walk, Le) for every walk; those that met a surface are alive afterwards. Adds the number of rays to `cast`.
+// Finds the first vertices along the rays and calls found(walk, Le) for every walk; those that met a surface are alive
+// afterwards. Adds the number of rays to `cast`.
 template <class Transport, class AnyWalkers, class Observer, class Found>
 void find_first_vertices(const Scene& scene, const Transport& T, std::span<const CameraRay> rays, AnyWalkers& walkers,
                          std::uint64_t& cast, const Observer& observer, const Found& found) {

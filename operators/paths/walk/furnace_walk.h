@@ -1,5 +1,6 @@
-// Cost and variance of roulette in a furnace, where both are known: everything emits radiance 1 and has albedo ρ. A walk that
-// survives with probability q, with its weight divided by q, has 1/(1 − q) vertices; its sum S of all terms has
+// The cost and variance of Russian roulette in a furnace, where both are known: everything emits radiance 1 and has
+// albedo ρ. A walk that survives with probability q, with its weight divided by q, has 1/(1 − q) vertices on average;
+// its sum S of all terms has
 //
 //     E[S] = 1/(1 − ρ),   E[S²] = (1 + ρ) / ((1 − ρ) (1 − ρ²/q)),   infinite for ρ² ≥ q
 //
@@ -14,7 +15,7 @@
 namespace neumann {
 
 struct FurnaceWalk {
-    double vertices;       // expected number, including the first
+    double vertices;       // expected number, including the first vertex
     double second_moment;  // E[S²]
 };
 

@@ -17,12 +17,12 @@ public:
 
     explicit GuidedContinuation(std::shared_ptr<const Guide> guide) : guide_(std::move(guide)) {}
 
-    // A vertex of a walk. With a table, fs |cosθ| / pdf is ρ divided by the table's density.
+    // The continuation at a vertex of a walk. With a table, fs |cosθ| / pdf is ρ divided by the table's density.
     class Vertex {
     public:
         Vertex() = default;
         Vertex(const CellDistribution* table, const Frame& shading) : table_(table) {
-            // Where there are texture coordinates, the shading frame's tangents differ from those of the table.
+            // If there are texture coordinates, the shading frame's tangents differ from those of the table.
             const Frame frame(shading.n);
             if (frame.s == shading.s && frame.t == shading.t) return;
             s_ = {glm::dot(frame.s, shading.s), glm::dot(frame.s, shading.t)};

@@ -13,7 +13,7 @@
 
 namespace neumann {
 
-// Large enough that the paths still alive fill the ray packets.
+// The number is large enough that the paths still alive fill the ray packets.
 constexpr std::uint32_t paths_at_once = 64;
 
 struct Pixel {
@@ -23,7 +23,7 @@ inline Pixel pixel_of(const Film& film, std::uint32_t number) {
     const auto width = static_cast<std::uint32_t>(film.crop_width);
     return {film.crop_x + static_cast<int>(number % width), film.crop_y + static_cast<int>(number / width)};
 }
-// Its inverse, for a pixel of the film's crop.
+// The inverse of pixel_of(); nothing if the pixel is outside of the film's crop.
 inline std::optional<std::uint32_t> number_of(const Film& film, const Pixel& pixel) {
     const int column = pixel.x - film.crop_x, row = pixel.y - film.crop_y;
     if (column < 0 || row < 0 || column >= film.crop_width || row >= film.crop_height) return std::nullopt;
@@ -34,11 +34,11 @@ struct PathGroup {
     std::vector<CameraRay> rays;
     std::vector<double> weights;  // weights of the film's filter
     Walkers walkers;
-    std::vector<Rgb> samples;  // path by path, all quantities of a path together
+    std::vector<Rgb> samples;  // path by path, with all quantities of a path together
 };
 
-// Samples one replicate of some pixels, with a sampler for each of their samples, and calls estimate(rays, samplers, walkers,
-// result). Adds the number of rays cast for each quantity to `rays`. Returns the number of walks given up.
+// Samples one replicate of some pixels, with a sampler for each of their samples, and calls estimate(rays, samplers,
+// walkers, result). Adds the number of rays cast for each quantity to `rays`. Returns the number of walks given up.
 template <class Estimate, class Sampler>
 std::uint64_t trace(const Scene& scene, const Estimate& estimate, std::span<Sampler> samplers, std::span<const Pixel> pixels,
                     std::uint64_t replicate, PathGroup& group, std::span<std::uint64_t> rays) {

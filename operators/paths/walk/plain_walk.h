@@ -1,7 +1,7 @@
-// The walk of walk.h in its plainest form, for walks that change their number or end before the light does. Before each reflection
-// `branches(bounce)` may put other walkers in the place of those that are alive, and at each vertex `reads(i, walker, side,
-// bounce)` tells whether the walk ends with the direct light of this vertex, at the next vertex; walkers.reads then tells which
-// walks ended so, and their x what they found. Leaves nothing out.
+// The walk of walk.h in its plainest form, for walks that change their number or end before the light does. Before each
+// reflection `branches(bounce)` may replace the walkers that are alive. At each vertex `reads(i, walker, side, bounce)`
+// returns whether the walk ends, after the direct light of this vertex, at the next vertex. Afterwards walkers.reads is
+// true for walks that ended so, and their x is the next vertex. Leaves nothing out.
 #pragma once
 
 #include "core/base/hot.h"
@@ -20,8 +20,8 @@ struct PlainWalkers : Walkers {
     std::vector<char> reads;  // whether the walk ends at the next vertex that it finds
 };
 
-// Walks on from first vertices. samplers[i] gives the random numbers of walker i; find(i, q, light) adds to bounce q, or the rest,
-// N + 1. Counts rays for each.
+// Continues walks from their first vertices. samplers[i] gives the random numbers of walker i; find(i, q, light) adds
+// light to bounce q, or to the rest, q = N + 1. Counts the rays of each.
 template <class Samplers, class AnyWalkers, class Branches, class Reads, class Find, class Observer = NoObserver>
 NEUMANN_HOT void plain_walk(const Scene& scene, const DirectLightSampler& direct, const WalkSettings& settings, Samplers& samplers,
                             AnyWalkers& walkers, std::span<std::uint64_t> rays, std::uint64_t& given_up, const Branches& branches,
@@ -35,7 +35,7 @@ NEUMANN_HOT void plain_walk(const Scene& scene, const DirectLightSampler& direct
         const auto q = static_cast<std::size_t>(std::min(bounce, N + 1));
         branches(bounce);
         walkers.reads.resize(walkers.walker.size());
-        // R: end, or sample the lights and, along with the last light sample, the next direction.
+        // R samples the lights and, along with the last light sample, the next direction.
         const std::size_t questions = std::max<std::size_t>(direct.questions(), 1);
         for (std::size_t question = 1; question <= questions; ++question) {
             walkers.keep_if([&](Walker& w, std::uint32_t i) {
@@ -59,7 +59,7 @@ NEUMANN_HOT void plain_walk(const Scene& scene, const DirectLightSampler& direct
             return false;
         });
 
-        // T: follow the direction; Le: add the light that it hits.
+        // T follows the direction. The light that it hits, Le, is added.
         rays[q] += walkers.alive.size();
         walkers.follow(T, bounce, observer, [&](Walker& w, std::uint32_t i) {
             w.wo = -w.w;

@@ -21,8 +21,8 @@ struct Roulette {
 
     bool operator==(const Roulette&) const = default;
 
-    // The probability of surviving. Weights are largest channels: `reflected` of the last reflection, `beta` of the walk, `kept` of
-    // the walk when it last survived. `rest`: whether the bounce is beyond N.
+    // The probability of surviving. Weights are largest channels: `reflected` is that of the last reflection, `beta`
+    // that of the walk, and `kept` that of the walk when it last survived. `rest` means that the bounce is beyond N.
     double probability(bool rest, double reflected, double beta, double kept) const {
         switch (kind) {
             case Kind::none:

@@ -1,4 +1,4 @@
-// Samples of every term, for several walks.
+// The samples of every term, for several walks.
 #pragma once
 
 #include "core/base/vec.h"
@@ -10,9 +10,9 @@ namespace neumann {
 
 // `quantities` has N + 2 entries for each walk: the terms 0 … N and the rest.
 struct TermSamples {
-    std::span<Rgb> quantities;      // added to
-    std::span<std::uint64_t> rays;  // N + 2 entries: rays cast for each, by all walks; added to
-    std::uint64_t given_up = 0;     // number of walks; added to
+    std::span<Rgb> quantities;      // samples are added to it
+    std::span<std::uint64_t> rays;  // N + 2 entries, to which the rays that all walks cast for each are added
+    std::uint64_t given_up = 0;     // number of walks, which is added to
 };
 
 }  // namespace neumann

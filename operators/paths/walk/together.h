@@ -1,5 +1,5 @@
-// Paths that advance together (as in wavefront path tracing), one reflection at a time: R for all, then T for all, so that the
-// processor always has several independent chains of arithmetic to work on.
+// Paths that advance together (as in wavefront path tracing), one reflection at a time: R for all, then T for all, so
+// that the processor always has several independent chains of arithmetic to work on.
 #pragma once
 
 #include "core/geometry/geometry.h"
@@ -14,7 +14,7 @@
 
 namespace neumann {
 
-// `Walker` derives from PathEnd, adds what its kind of path needs, and has a constant `from_light`.
+// `Walker` derives from PathEnd, adds the state that its kind of path needs, and has a constant `from_light`.
 template <class Walker>
 struct Together {
     std::vector<Walker> walker;        // one for each path; begin() does not reset them
@@ -61,7 +61,7 @@ struct Together {
         }
         alive.resize(kept);
     }
-    // An `ask` for advance(): T, the first hit from x along w.
+    // An `ask` for advance() that finds the first hits from x along w, which is T.
     template <class Transport, class HitAt>
     std::uint32_t first_hits(const Transport& T, std::size_t k, std::size_t n, const HitAt& hit) const {
         return T.first_hits(
@@ -84,7 +84,7 @@ struct Together {
         advance(
             0, observer, [&](std::size_t k, std::size_t n, const auto& hit) { return T.first_hits(rays.subspan(k, n), hit); }, f);
     }
-    // The same for those paths alone for which sets_out(index) is true.
+    // Starts only those paths for which sets_out(index) is true.
     template <class Transport, class SetsOut, class Observer, class Keep>
     void set_out_some(const Transport& T, std::span<const CameraRay> rays, const SetsOut& sets_out, const Observer& observer,
                       const Keep& f) {
@@ -100,7 +100,7 @@ struct Together {
             f);
     }
 
-    // For several walks from one first vertex: saves and restores the state there.
+    // These two save and restore the state at the first vertex, from which several walks start.
     void remember_first() {
         first_ = walker;
         first_alive_ = alive;

@@ -11,7 +11,7 @@ namespace {
 
 enum class Change { stays, splits, thins };
 
-// The best numbers if depths change in this way; empty if the closed form changes them in another.
+// The best numbers if depths change in this way; empty if the closed form changes them in another way.
 std::vector<double> numbers_of(const TreeMoments& tree, std::span<const Change> changes) {
     const std::size_t n = tree.depths();
     std::vector<double> numbers(n, 1.0);
@@ -62,7 +62,7 @@ std::vector<double> best_tree(const TreeMoments& tree) {
                 least = work;
                 best = numbers;
             }
-        // The next choice, counting in threes from depth 1 on.
+        // Takes the next choice by counting in threes from depth 1 on.
         std::size_t j = 1;
         for (; j < n && changes[j] == Change::thins; ++j) changes[j] = Change::stays;
         if (j >= n) return best;

@@ -15,7 +15,7 @@ namespace neumann {
 
 namespace {
 
-// The numbers of one walk up to some place, and others from there on.
+// The random numbers of one walk up to some place, and others from there on.
 class PartingNumbers {
 public:
     PartingNumbers(const Sampler& shared, const Sampler& own) : shared_(shared), own_(own) {}
@@ -28,7 +28,7 @@ private:
     bool has_parted_ = false;
 };
 
-// Walks part after they have cast their ray of this depth.
+// Makes walks part after they have cast their ray of this depth.
 struct PartAfter : NoObserver {
     PartAfter(std::span<PartingNumbers> numbers, int depth) : numbers(numbers), depth(depth) {}
     void casts(std::uint32_t path, bool, int reflections, const PathEnd&) const {
@@ -38,7 +38,8 @@ struct PartAfter : NoObserver {
     int depth;
 };
 
-// E[X X'] of walks that share nothing, depth 0, depths 0 and 1, …, all; and E[Y Y'] of what depth j and later ones bring.
+// E[X X'] of walks that share nothing, depth 0, depths 0 and 1, …, all; and E[Y Y'], where Y is the contribution of
+// depth j and later ones.
 struct Products {
     explicit Products(std::size_t depths) : of_goals(depths + 1, std::vector<double>(depths + 1, 0.0)), remainders(of_goals) {}
     std::vector<std::vector<double>> of_goals, remainders;  // by goal (bounces, and the sum) and number of depths that are shared
@@ -68,7 +69,7 @@ TreePilot measure_tree(const Scene& scene, int bounces, std::uint32_t samples, s
     const DirectLightSampler direct(scene, settings.direct);
     const auto depths = static_cast<std::size_t>(bounces) + 1, Q = depths + 1;
     const auto pixels = static_cast<std::uint32_t>(scene.film.crop_width * scene.film.crop_height);
-    // In the order of pixels: the sums do not depend on the number of threads.
+    // The results are added up in the order of pixels, so that the sums do not depend on the number of threads.
     std::vector<Products> of_pixels(pixels, Products(depths));
     std::vector<std::vector<std::uint64_t>> rays_of_pixels(pixels, std::vector<std::uint64_t>(Q));
     std::atomic<std::uint64_t> all_rays = 0;
@@ -76,7 +77,7 @@ TreePilot measure_tree(const Scene& scene, int bounces, std::uint32_t samples, s
         if (watch.stop()) return;
         const Pixel pixel = pixel_of(scene.film, number);
         Walkers walkers;
-        // Walks of this pixel: all first ones, and their partners that share `shared` depths with them.
+        // The walks of this pixel: all first ones, or their partners that share `shared` depths with them.
         const auto walk_all = [&](std::size_t shared, std::vector<std::uint64_t>& rays) {
             std::vector<PartingNumbers> numbers;
             std::vector<CameraRay> camera;

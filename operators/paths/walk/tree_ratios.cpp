@@ -12,7 +12,7 @@ namespace neumann {
 namespace {
 
 constexpr std::uint32_t samples_of_pilot = 128;
-constexpr std::uint64_t tree_stream = 0x7472656573ull;  // another seed than the pictures'
+constexpr std::uint64_t tree_stream = 0x7472656573ull;  // differs from the seed of the pictures
 constexpr double least_ratio = 0.1, largest_ratio = 16.0, most_branches = 256.0;
 
 }  // namespace

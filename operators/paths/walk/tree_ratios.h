@@ -1,4 +1,4 @@
-// What walk_tree() takes: the best numbers for the depths of a scene, by a pilot.
+// The ratios for walk_tree(): the best numbers for the depths of a scene, which a pilot measures.
 #pragma once
 
 #include "core/scene/scene.h"
@@ -11,22 +11,22 @@
 
 namespace neumann {
 
-// What a tree is to serve: the picture of a bounce, or the sum of all.
+// The goal of a tree: the picture of a bounce, or the sum of all.
 struct TreeGoal {
     std::optional<int> bounce = {};
     bool operator==(const TreeGoal&) const = default;
 };
 
-// Choices are tried one by one (best_tree()), so that deeper reflections go on as they are.
+// Choices are tried one by one (best_tree()), so that reflections deeper than this neither split nor end.
 constexpr int most_depths_of_tree = 8;
 
 struct TreeRatios {
-    std::vector<double> of_depths;  // m_j / m_{j−1} for j = 1 …; within 1/10 … 16, and with 256 branches at most:
-                                    // what the pilot did not see may be anywhere
-    std::uint64_t rays = 0;         // of the pilot
+    std::vector<double> of_depths;  // m_j / m_{j−1} for j = 1 …; within 1/10 … 16, and with at most 256 branches, because the pilot
+                                    // may have missed something
+    std::uint64_t rays = 0;  // cast by the pilot
 };
 
-// The same for all seeds. Throws InputError if there is no such bounce, and Stopped.
+// The ratios are the same for all seeds. Throws InputError if there is no such bounce, and Stopped.
 std::shared_ptr<const TreeRatios> tree_ratios(const Scene& scene, int bounces, const TreeGoal& goal, const Watch& watch = {});
 
 }  // namespace neumann

@@ -14,13 +14,13 @@
 
 namespace neumann {
 
-// Walkers, and the path from the camera of which each is a branch.
+// The walkers, and for each the path from the camera of which it is a branch.
 struct TreeWalkers : PlainWalkers {
     std::vector<std::uint32_t> path;
 };
 
-// Samples all terms along some camera rays. ratios[j − 1] is r_j; deeper reflections neither split nor end by it. The observer
-// hears of walkers, which it finds in `walkers`.
+// Samples all terms along some camera rays. ratios[j − 1] is r_j; deeper reflections neither split nor end the walk by
+// it. The numbers that the observer gets are those of walkers in `walkers`.
 template <class Sampler, class Observer = NoObserver>
 void walk_tree(const Scene& scene, const DirectLightSampler& direct, const WalkSettings& settings, std::span<const double> ratios,
                std::span<const CameraRay> rays, std::span<Sampler> samplers, TreeWalkers& walkers, TermSamples& out,

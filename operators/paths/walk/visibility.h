@@ -1,5 +1,5 @@
-// V(x, y) of many pairs of points, packet by packet: x is the end of a path, y a sampled point on a light or on the lens, or a
-// vertex of the other subpath.
+// V(x, y) of many pairs of points, packet by packet: x is the end of a path, and y a sampled point on a light or on the
+// lens, or a vertex of the other subpath.
 #pragma once
 
 #include "core/geometry/geometry.h"

@@ -1,5 +1,5 @@
-// One random walk from the camera gives a sample of every term at once: at its i-th vertex it has been reflected i times, so what
-// it finds there is a sample of K^i Le.
+// One random walk from the camera gives a sample of every term at once: at its i-th vertex it has been reflected i
+// times, so the light emitted there is a sample of K^i Le.
 //
 //     K^i Le (x0, ω0) = E[ β_i Le(x_i, ω_i) ],   β_i = Π f cosθ / pdf over the i reflections
 //
@@ -24,8 +24,8 @@
 
 namespace neumann {
 
-// Samples the terms from 1 on of walks that stand at their first vertices. `T` has first_hits() and visible() like Geometry;
-// samplers[i] gives the random numbers of walk i. `observer`: see observer.h.
+// Samples the terms from 1 on of walks that stand at their first vertices. `T` has first_hits() and visible() like
+// Geometry; samplers[i] gives the random numbers of walk i. `observer` is described in observer.h.
 template <class Transport, class Sampler, class Continuation = MaterialContinuation, class Observer = NoObserver>
 NEUMANN_HOT void walk_on(const Scene& scene, const Transport& T, const DirectLightSampler& direct, const WalkSettings& settings,
                          std::span<Sampler> samplers, Walkers& walkers, TermSamples& out, const Continuation& continuation = {},
@@ -58,7 +58,8 @@ NEUMANN_HOT void walk_on(const Scene& scene, const Transport& T, const DirectLig
             const std::size_t questions = direct.questions() * static_cast<std::size_t>(!first ? 1 : copy == 0 ? split.lights : 0);
             places.find(continuation, walkers, std::max(N - bounce, 0));
 
-            // R: sample the lights and, along with the last light sample, the next direction; T: are the light samples seen?
+            // R samples the lights and, along with the last light sample, the next direction. T finds which light
+            // samples are visible.
             for (std::size_t question = 1; question <= std::max<std::size_t>(questions, 1); ++question) {
                 const auto reflect = [&](Walker& w, std::uint32_t i) {
                     const SurfaceSide side = scene.materials.side(w.x, w.wo);
@@ -94,7 +95,7 @@ NEUMANN_HOT void walk_on(const Scene& scene, const Transport& T, const DirectLig
                                           [&](std::uint32_t i, const Rgb& light) { find(i, q, light); });
             }
 
-            // Keep the walks whose ray is needed: for this bounce's light, for a further bounce, or for the rest.
+            // Keeps the walks whose ray is needed: for this bounce's light, for a further bounce, or for the rest.
             if (wants_light_only && left_out.rays_for_light) break;
             const bool only_mirrors = wants_light_only && !direct.counts_what_is_hit();
             walkers.keep_if([&](Walker& w, std::uint32_t i) {
@@ -102,7 +103,7 @@ NEUMANN_HOT void walk_on(const Scene& scene, const Transport& T, const DirectLig
                 return ending.live(bounce, w, w.reflected, samplers[i]);
             });
 
-            // T: follow the direction; Le: add the light that it hits.
+            // T follows the direction. The light that it hits, Le, is added.
             const auto next_points = [&](std::size_t k, std::size_t n, const auto& hit) {
                 if (left_out.rays_from_surfaces) return std::uint32_t{0};
                 if constexpr (Continuation::joins_points)
@@ -125,7 +126,8 @@ NEUMANN_HOT void walk_on(const Scene& scene, const Transport& T, const DirectLig
     }
 }
 
-// Samples all terms along some camera rays: Le, where T finds the first vertices, and then as above.
+// Samples all terms along some camera rays: T finds the first vertices, where Le is added, and walk_on() samples the
+// others.
 template <class Transport, class Sampler, class Continuation = MaterialContinuation, class Observer = NoObserver>
 void walk(const Scene& scene, const Transport& T, const DirectLightSampler& direct, const WalkSettings& settings,
           std::span<const CameraRay> rays, std::span<Sampler> samplers, Walkers& walkers, TermSamples& out,

@@ -41,9 +41,10 @@ struct WalkSettings {
     Roulette roulette = {};
     Split split = {};
     LeftOut left_out = {};
-    // Probability with which a walk goes on beyond bounce N into the rest Σ_{k>N} K^k Le (its weight is divided by it); 0: no rest.
+    // The probability with which a walk goes on beyond bounce N into the rest Σ_{k>N} K^k Le (its weight is divided by
+    // it); 0: no rest.
     double rest_probability = 1.0;
-    // Bounces beyond N after which a walk is given up and counted.
+    // The number of bounces beyond N after which a walk is given up and counted.
     int give_up = 1'000'000;
 
     Ending ending() const { return {bounces, roulette, rest_probability, give_up}; }

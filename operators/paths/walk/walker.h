@@ -10,7 +10,7 @@
 
 namespace neumann {
 
-// A walk's light sample, before its ray is cast: to y, or along w.
+// The light sample of a walk before its ray is cast: to y, or along w.
 struct AskedLight {
     SurfacePoint y;
     Vec3 w;
@@ -24,7 +24,7 @@ struct Walker : PathEnd {
     double reflected = 0.0;  // largest channel of the last reflection's weight
     AskedLight asked;
 
-    // R has sampled the next direction.
+    // Leaves the vertex in the direction that R has sampled.
     void leave(const SurfaceSide& side, const BsdfSample& sampled) {
         beta *= sampled.weight;
         reflected = max_component(sampled.weight);
@@ -34,12 +34,12 @@ struct Walker : PathEnd {
     }
 };
 
-// Work space of walk(), kept between calls.
+// The work space of walk(), kept between calls.
 struct Walkers : Together<Walker> {
     std::vector<std::uint32_t> asking;  // walks whose light sample needs a ray
     std::vector<SurfacePoint> next;     // the next vertex of each walk, if the continuation joins points
 
-    // An `ask` for advance(): moves walks to their `next` vertices if these are visible.
+    // An `ask` for advance() that moves walks to their `next` vertices if these are visible.
     template <class Transport, class HitAt>
     std::uint32_t join_next(const Transport& T, std::size_t k, std::size_t n, const HitAt& hit) const {
         const std::uint32_t seen = T.visible(

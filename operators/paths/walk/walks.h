@@ -1,4 +1,4 @@
-// The walks of walk.h through a scene's geometry, for all that only calls them: they are compiled once.
+// The walks of walk.h through a scene's geometry, compiled once for all code that only calls them.
 #pragma once
 
 #include "core/sampling/sampler.h"
@@ -19,7 +19,7 @@ class GuidedContinuation;
 void start_walks(const Scene& scene, const WalkSettings& settings, std::span<const CameraRay> rays, Walkers& walkers,
                  TermSamples& out);
 
-// Walks on from the first vertices.
+// Continues walks from their first vertices.
 void walk_on(const Scene& scene, const DirectLightSampler& direct, const WalkSettings& settings, std::span<Sampler> samplers,
              Walkers& walkers, TermSamples& out, const MaterialContinuation& continuation);
 void walk_on(const Scene& scene, const DirectLightSampler& direct, const WalkSettings& settings, std::span<Sampler> samplers,
@@ -29,7 +29,7 @@ void walk_on(const Scene& scene, const DirectLightSampler& direct, const WalkSet
 void walk_on(const Scene& scene, const DirectLightSampler& direct, const WalkSettings& settings, std::span<Sampler> samplers,
              Walkers& walkers, TermSamples& out, const GuidedContinuation& continuation);
 
-// All terms along camera rays.
+// Samples all terms along camera rays.
 template <class Continuation>
 void walk(const Scene& scene, const DirectLightSampler& direct, const WalkSettings& settings, std::span<const CameraRay> rays,
           std::span<Sampler> samplers, Walkers& walkers, TermSamples& out, const Continuation& continuation) {
