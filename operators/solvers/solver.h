@@ -15,7 +15,7 @@ namespace neumann {
 // One entry of a solver's history.
 struct SolverStep {
     double applications = 0.0;  // of K, so far
-    double estimate = 0.0;      // of the error, relative to ‖x‖∞ unless the solver's header says otherwise
+    double estimate = 0.0;      // of the error, relative to ‖x‖∞ unless the solver's header has another definition
     double error = 0.0;         // ‖x − L‖∞ / ‖L‖∞ if L is known, otherwise not a number
     double seconds = 0.0;       // since the solver began
 };

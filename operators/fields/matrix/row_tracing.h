@@ -33,7 +33,7 @@ struct RowsToTrace {
     std::uint64_t seed;
     std::span<const std::uint32_t> facets;
     std::span<const std::size_t> first_ray;
-    bool rough = false;  // as Geometry::rough_hits()
+    bool rough = false;  // traced with Geometry::rough_hits()
 };
 
 // The conditions under which rows are traced.

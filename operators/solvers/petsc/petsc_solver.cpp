@@ -216,7 +216,7 @@ OperatorNorms slepc_norms(const ChannelOperator& K, const EigenLimits& limits) {
     try {
         PetscEigenTask task;
         task.symmetric = true;
-        task.tolerance = 1e-8;  // of the vector; the value's is its square
+        task.tolerance = 1e-8;  // for the vector; that of the value is its square
         FixedNumbers().fill(K, task.start);
         const PetscEigenpairs found = start_petsc("")->eigenpairs(A, task);
         if (found.converged) norms.two = std::sqrt(std::max(found.values.front().real(), 0.0));

@@ -46,7 +46,7 @@ struct Eigenpair {
 
 struct Eigenpairs {
     std::vector<Eigenpair> pairs;         // by falling |λ|; a conjugate pair is two of them. Approximations if not all were found
-    bool converged = false;               // all that were asked for were found
+    bool converged = false;               // all that were wanted were found
     double applications = 0.0;            // the number of unknowns if K was small and its matrix was formed
     std::vector<EigenStep> history = {};  // one step for each restart
     std::string why =
