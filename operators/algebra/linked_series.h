@@ -44,8 +44,7 @@ public:
     }
 
     bool has_links() const { return links_ > 0; }
-    // R Σ_m T_m Σ_{j≤m} f_{k−j} + b, the right-hand side of the equation of the sum S of all later terms: S = K S +
-    // this.
+    // R Σ_m T_m Σ_{j≤m} f_{k−j} + b. The sum S of all later terms solves S = K S + this.
     Field begun(const Field* given) const {
         std::vector<Field> sums{past_.front()};
         for (std::size_t j = 1; j < past_.size(); ++j) sums.push_back(sums.back() + past_[j]);

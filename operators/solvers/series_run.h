@@ -41,8 +41,8 @@ struct SeriesRun {
 };
 
 // Verdicts:
-// converged: the enclosure, the bound with a < 1, or the bound with ‖(I − K)⁻¹‖∞ (inverse_bound.h) is within the tolerance;
-//     all are rigorous up to rounding. If none exists, the estimate decides, and `why` says so.
+// converged: the enclosure, the bound with a < 1, or the bound with ‖(I − K)⁻¹‖∞ (inverse_bound.h) is within the
+//     tolerance; all are rigorous up to rounding. If none exists, the estimate decides, and `why` says so.
 // rounding: only rounding errors are left, and they exceed the tolerance.
 // diverging: the terms did not fall over 32 bounces, and the spectral radius, which is then computed, is 1 or more;
 //     a ≥ 1 alone only causes a warning.

@@ -23,11 +23,12 @@ struct SolverStep {
 struct Problem {
     const ChannelOperator* K = nullptr;
     Vector Le = {};
-    double tolerance = 1e-6;            // of the estimated error, relative to ‖x‖∞
-    Eigen::Index most = 10000;          // largest number of applications of K
-    std::optional<double> radius = {};  // spectral radius of K, or a bound or estimate of it; turns residuals into errors if ‖(I
-                                        // − K)⁻¹‖∞ has no bound (inverse_bound.h)
-    std::optional<double> lowest = {};  // lowest eigenvalue of a K with a real spectrum; −radius without it
+    double tolerance = 1e-6;    // of the estimated error, relative to ‖x‖∞
+    Eigen::Index most = 10000;  // largest number of applications of K
+    // The spectral radius of K, or a bound or estimate of it; turns residuals into errors if ‖(I − K)⁻¹‖∞ has no bound
+    // (inverse_bound.h).
+    std::optional<double> radius = {};
+    std::optional<double> lowest = {};    // lowest eigenvalue of a K with a real spectrum; −radius without it
     const Vector* reflectance = nullptr;  // ρ of each unknown if K = diag(ρ) F with F reciprocal, measure_u F_uv = measure_v F_vu
     const Vector* exact = nullptr;        // L, to record the true error
     std::function<void(const SolverStep&)> observer = {};

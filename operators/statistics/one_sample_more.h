@@ -2,8 +2,8 @@
 // in all replicates although their expectation lies a little higher, and their spread does not show that. The half
 // width of a 95% interval is at least h, with D the largest minus the smallest sample:
 //
-//     h = 3 D/n   if all replicates agree: the rule of three. The probability p of a sample that differs is below 3/n with 95%
-//                 confidence, as (1 − p)^n ≤ e^{−pn} = 0.05
+//     h = 3 D/n   if all replicates agree: the rule of three. The probability p of a sample that differs is below 3/n
+//                 with 95% confidence, as (1 − p)^n ≤ e^{−pn} = 0.05
 //     h = D/n     otherwise: one sample more or less
 #pragma once
 

@@ -21,7 +21,7 @@ namespace neumann {
 // or PatchSpace::nothing() if it leaves the scene or is absorbed.
 struct Chain {
     std::uint32_t from, to;
-    float share;  // part of the ray in the mean over the cell of `from`
+    float share;  // part that the ray has in the mean over the cell of `from`
     std::uint32_t links;
     std::size_t first;  // number of the first link
 };

@@ -12,7 +12,7 @@ struct ChosenChannel {
     int channel = 0;
     double radius = 0.0;        // spectral radius of its K; not a number if it was not found
     std::string no_radius;      // why it was not found
-    bool traps_light = false;   // light is trapped in glass: the radius is 1, which says nothing about light outside of the glass
+    bool traps_light = false;   // glass traps light: the radius is 1, and tells nothing of light outside of the glass
     double applications = 0.0;  // applications of K to find the radius, in all channels tried
     std::string why;
 };

@@ -33,8 +33,8 @@ constexpr std::uint64_t pilot_stream = 0x6c696e6b70696cull, light_stream = 0x6c6
 constexpr std::uint32_t least_net = 8, largest_net = 4096;
 constexpr double pilot_share = 1.0 / 16.0;
 // The part of the samples that is spread evenly over the area of all reflectors. The pilot can miss a spot of sun on a
-// reflector, whose light would then come as a few samples of any weight; with this part no sample weighs more than 1 /
-// even_share times what an even one would.
+// reflector, whose light would then come as a few samples of any weight; with this part no sample weighs more than
+// 1 / even_share times what an even one would.
 constexpr double even_share = 0.25;
 // The approximate number of rays of a sample: the shadow ray, and those of the links.
 constexpr double rays_of_sample = 4.0;

@@ -29,8 +29,8 @@ struct LinkArrival {
     double index;           // refractive index at x, if it is 1 where the path begins
 };
 
-// The number of rays for LinkLight: about as many as T would have if all patches had unknowns, because those from which
-// the light goes on have none, and may be most.
+// The number of rays for LinkLight: about as many as T would have if all patches had unknowns, because the patches from
+// which light goes on have none, and they may be most.
 inline double rays_of_links(const PatchSpace& space, std::uint32_t rays_of_facet) {
     return static_cast<double>(std::max(space.facets().size(), space.patches().size())) * rays_of_facet;
 }

@@ -4,8 +4,8 @@
 // two different estimates. A chain (chains.h) carries the power that it takes from a side with unknowns from link to
 // link, one bounce each.
 //
-// If several processes share the rows of T, each adds the power that its own rows start, receive and see: the sum over
-// the processes is the balance.
+// If several processes share the rows of T, each finds the power that leaves its own facets, arrives there and is seen
+// from there: the sum over the processes is the balance.
 #pragma once
 
 #include "operators/fields/matrix/chains.h"
@@ -49,8 +49,8 @@ private:
     std::uint32_t begin_, end_;  // unknowns [begin_, end_) have rows
     // Contributions to the balance of one unit of radiance of each unknown.
     typename ExitantVector<1>::Values emitted_, left_, caught_;
-    typename ExitantVector<C>::Values absorbed_, kept_;  // kept_ is the absorbed part of the power that arrives in each unknown's
-                                                         // cell
+    // kept_ is the absorbed part of the power that arrives in each unknown's cell.
+    typename ExitantVector<C>::Values absorbed_, kept_;
 };
 
 extern template class PowerBalance<1>;

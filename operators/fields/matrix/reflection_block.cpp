@@ -76,7 +76,7 @@ std::vector<std::vector<Rgb>> ReflectionBlock::sampled_rows(std::span<const Side
             if (s.wi.z > 0.0)
                 rows[i][here.first + here.cells.cell(s.wi)] += weight;
             else if (s.wi.z < 0.0 && sides.size() == 2)
-                rows[i][there.first + there.cells.cell({s.wi.x, -s.wi.y, -s.wi.z})] += weight * basic;  // in the frame Frame(−n)
+                rows[i][there.first + there.cells.cell({s.wi.x, -s.wi.y, -s.wi.z})] += weight * basic;  // in Frame(−n)
         }
     });
     return rows;

@@ -18,7 +18,7 @@ namespace neumann {
 struct BlindRay {
     std::uint32_t facet, number;  // `number` is that among the facet's rays
     std::uint32_t from;           // the unknown in whose cell of directions the ray lies
-    double share;                 // part of the ray in the mean over that cell
+    double share;                 // part that the ray has in the mean over that cell
     const Sight& sight;
 };
 

@@ -26,7 +26,7 @@ struct ChannelSpectrum {
     Convergence convergence = Convergence::undecided;
     std::array<std::optional<int>, 3> bounces;       // number of bounces until the part `remaining` is left
     bool bounces_stopped = false;                    // time ran out before they were known
-    std::array<double, 2> rounding{}, stagnation{};  // rounding_floor() and expected_stagnation(), in float and in double
+    std::array<double, 2> rounding{}, stagnation{};  // rounding_floor() and expected_stagnation(), for float and double
 };
 
 struct SceneSpectrum {

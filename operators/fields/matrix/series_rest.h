@@ -5,9 +5,9 @@
 // own ratio μ: light of a room that is dim and slow does not fall like that of one that is bright and fast, and a
 // picture may show the dim one alone.
 //
-// The error is bounded unknown by unknown, relative to the value there. θ = t_{n+1} + t_{n+2} + … is the solution of θ
-// = T + K^m θ with T = t_{n+1} + … + t_{n+m}, m = 2. If a guess g has the residual r = T + K^m g − g and |r| ≤ η (T −
-// r), then η g, which solves x = η (T − r) + K^m x, is above |θ − g| because K ≥ 0. m more applications give this
+// The error is bounded unknown by unknown, relative to the value there. θ = t_{n+1} + t_{n+2} + … is the solution of
+// θ = T + K^m θ with T = t_{n+1} + … + t_{n+m}, m = 2. If a guess g has the residual r = T + K^m g − g and |r| ≤ η
+// (T − r), then η g, which solves x = η (T − r) + K^m x, is above |θ − g| because K ≥ 0. m more applications give this
 // bound, and T + K^m g, which is closer than g. Light that comes round in more than two bounces leaves unknowns without
 // light in T: then m is doubled.
 #pragma once

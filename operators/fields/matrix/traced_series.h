@@ -27,8 +27,7 @@ struct TracedSeriesSettings {
     bool rest = true;                  // also compute Σ_{k>N}
     Glossy glossy = Glossy::in_cells;  // must be that with which the space was made
     std::uint32_t camera_samples = 2;  // per pixel, for We; a power of two
-    bool rough_rays = false;           // casts the rays of T with Geometry::rough_hits(), for fields whose errors are corrected
-                                       // later
+    bool rough_rays = false;           // T by Geometry::rough_hits(), for fields whose errors are corrected later
 };
 
 struct TracedSeries {

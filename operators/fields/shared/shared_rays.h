@@ -73,8 +73,7 @@ private:
     std::vector<std::uint32_t> others_;  // numbers of the other processes' unknowns that have slots, ascending
     std::vector<std::uint32_t> given_;   // own unknowns that others see, process by process
     Processes::Counts counts_;           // numbers of values that fetch() exchanges
-    LargeArray<double> at_slots_;        // result of fetch(); a large array because it is read at random, which small pages make
-                                         // slower
+    LargeArray<double> at_slots_;        // result of fetch(); read at random, which small pages make slower
     double seconds_ = 0.0;
 };
 

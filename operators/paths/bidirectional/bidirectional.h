@@ -1,7 +1,7 @@
 // Bidirectional path tracing: traces a subpath from the camera and one from a light, and connects every vertex of one
 // to every vertex of the other (Veach and Guibas 1994; Lafortune and Willems 1993). Strategy (s, t), here called a way,
-// has s vertices from the light and t from the camera, the first of which is on the lens, and makes paths of bounce s +
-// t − 2:
+// has s vertices from the light and t from the camera, the first of which is on the lens, and makes paths of bounce
+// s + t − 2:
 //
 //     (0, t)  the camera subpath hits a light            (1, t)  its last vertex samples the lights
 //     (s, 1)  a light vertex is connected to the lens    (s, t)  two vertices are connected
@@ -47,9 +47,9 @@ public:
 
     // Traces a path for each ray; `camera` and `light` give the random numbers of its subpaths. Calls found(i, Found)
     // for contributions of path i to its own pixel, and splatted(i, position, Found) for contributions of its light
-    // subpath at a position on the film, times the number of pixels. Adds the numbers of rays to `counts`, which has N
-    // + 2 entries. `ways` tells which ways are made (made_ways.h); the random numbers that a way takes do not depend on
-    // which others are made. Returns the number of walks given up.
+    // subpath at a position on the film, times the number of pixels. Adds the numbers of rays to `counts`, which has
+    // N + 2 entries. `ways` tells which ways are made (made_ways.h); the random numbers that a way takes do not depend
+    // on which others are made. Returns the number of walks given up.
     template <class Transport, class Sampler, class LightRandom, class OnFound, class OnSplat, class Observer = NoObserver,
               class Ways = AllWays>
     NEUMANN_HOT std::uint64_t trace(const Transport& T, std::span<const CameraRay> rays, std::span<Sampler> camera,

@@ -7,10 +7,10 @@ namespace neumann {
 
 // The quantity that determines how far from its place a record is read.
 enum class Spacing {
-    split_sphere,  // the distances of the surfaces that it sees (Ward, Rubinstein and Clear, A Ray Tracing Solution for Diffuse
-                   // Interreflection, 1988)
-    hessian        // the change of the gradient of its irradiance (Schwarzhaupt, Jensen and Jarosz, Practical Hessian-Based Error
-                   // Control for Irradiance Caching, 2012)
+    split_sphere,  // the distances of the surfaces that it sees (Ward, Rubinstein and Clear, A Ray Tracing Solution for
+                   // Diffuse Interreflection, 1988)
+    hessian        // the change of the gradient of its irradiance (Schwarzhaupt, Jensen and Jarosz, Practical
+                   // Hessian-Based Error Control for Irradiance Caching, 2012)
 };
 
 struct CacheSettings {

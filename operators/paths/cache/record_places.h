@@ -10,8 +10,8 @@
 // and on the radius ℓ of the disk that is usual in the scene:
 //
 //     split-sphere: r = a R,  s = a
-//     Hessian:      r⁴ = 8 a ℓ² E / (|λ1| + |λ2|), so that (1/π r²) ∫ ½ uᵀHu ≤ a E if r = ℓ, and in proportion to r² otherwise,
-//                   which gives the least sum of errors for the number of records
+//     Hessian:      r⁴ = 8 a ℓ² E / (|λ1| + |λ2|), so that (1/π r²) ∫ ½ uᵀHu ≤ a E if r = ℓ, and in proportion to r²
+//                   otherwise, which gives the least sum of errors for the number of records
 //
 // The latter is at most R/2, and both are at most E / |∂E/∂x|, because beyond that the record could give less than 0.
 #pragma once

@@ -12,8 +12,7 @@ namespace neumann {
 struct RecordPoint {
     Record record;
     std::vector<Rgb> irradiance;  // E_1 … E_bounces, W·m⁻²
-    std::optional<Vec2> pixel;    // position on the film, as FilmPoint::position; nothing if the point is hidden or outside of the
-                                  // film
+    std::optional<Vec2> pixel;    // as FilmPoint::position; nothing if the point is hidden or outside of the film
 };
 
 // All records of a cache, in the order in which they were placed, filled once. The same on any number of threads.

@@ -7,8 +7,8 @@
 // with records nearby, the E of one of these, chosen at random in proportion to its weight. Only the camera uses
 // derivatives: without them a row of A ρ/π is an average, ‖A ρ/π‖∞ ≤ the largest albedo, and the recursion converges
 // where the series is sure to. A record's rays serve all its bounces, so that the terms of a pass are those of one
-// matrix. If light comes back to a record, the mean over passes is off by a part of about 1 / (rays of a record ·
-// number of records).
+// matrix. If light comes back to a record, the mean over passes is off by a part of about 1 / n, where n is the number
+// of rays of all records.
 #pragma once
 
 #include "core/sampling/sampler.h"

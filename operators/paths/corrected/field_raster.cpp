@@ -113,8 +113,8 @@ void FieldRaster::fill(const FieldStack& fields) {
 
 namespace {
 
-// A part of K Le at a point with normal n on the lit side, without the reflectance: the contribution of samples `begin`
-// … `end` − 1 of light_samples.
+// A part of K Le at a point with normal n on the lit side, without the reflectance: the contribution of samples
+// `begin` … `end` − 1 of light_samples.
 NEUMANN_HOT Rgb light_at_node(const Geometry& geometry, const LightSampler& lights, const SurfacePoint& p, const Vec3& n,
                               std::uint32_t begin, std::uint32_t end, Sampler& sampler, std::uint64_t& rays) {
     std::array<LightSample, RayCaster::packet_size> waiting;

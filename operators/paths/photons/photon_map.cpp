@@ -10,7 +10,7 @@ namespace neumann {
 namespace {
 
 constexpr float least_cosine = 0.5f;  // least cosine between two normals on the same surface
-constexpr double flatness = 0.2;      // height of the disk in which photons lie, above and below x, as a part of the radius
+constexpr double flatness = 0.2;      // how far photons lie above or below x, as a part of the radius
 
 // A result set of nanoflann that hands over all points within a radius.
 template <class Each>

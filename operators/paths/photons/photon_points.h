@@ -11,8 +11,7 @@ namespace neumann {
 struct PhotonPoint {
     Photon photon;  // its power, in W, is a part of that of all paths
     bool is_caustic;
-    std::optional<Vec2> pixel;  // position on the film, as FilmPoint::position; nothing if the point is hidden or outside of the
-                                // film
+    std::optional<Vec2> pixel;  // as FilmPoint::position; nothing if the point is hidden or outside of the film
 };
 
 // The photons of bounces 1 … N of `paths` paths, path by path. The same on any number of threads. Throws Stopped.

@@ -3,8 +3,8 @@
 //
 //     directly from a light: found by light samples, as by other walks (ask_light.h);
 //     from a light by way of delta lobes only (a caustic): read from the map of caustics;
-//     in all other ways: read from the other map at x; or, with gathering, one more direction is sampled, and the map of all
-//     photons is read at the first such vertex that it finds.
+//     in all other ways: read from the other map at x; or, with gathering, one more direction is sampled, and the map
+//     of all photons is read at the first such vertex that it finds.
 //
 // A photon of bounce j that is read after b reflections belongs to bounce b + j. Each map is read with two radii, r and
 // r/√2, and the difference of the two pictures shows how far the first is from the truth.

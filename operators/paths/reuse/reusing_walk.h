@@ -107,8 +107,8 @@ NEUMANN_HOT void walk_reusing(const Scene& scene, const DirectLightSampler& dire
         c.shares = diffuse.has(c.y.shape, front);
         tail.x = c.y;
         tail.wo = w.wo;
-        tail.beta = Rgb(max_component(w.beta) / max_component(c.weight));  // the factor by which Russian roulette has changed the
-                                                                           // weight
+        // The factor by which Russian roulette has changed the weight.
+        tail.beta = Rgb(max_component(w.beta) / max_component(c.weight));
         return true;
     });
     if (tails.alive.empty()) return;

@@ -1,15 +1,16 @@
 // The continuation of a walk: how the direction of its next reflection is drawn, and with which density. Each is a
 // class with
 //
-//     Place                       the result of place(x, wo, wanted) for a vertex, found for all walks before any reflection to
-//     hide
-//                                 the latency of memory; `wanted` is the number of later bounces that have pictures
+//     Place                       the result of place(x, wo, wanted) for a vertex, found for all walks before any
+//                                 reflection to hide the latency of memory; `wanted` is the number of later bounces
+//                                 that have pictures
 //     at(side, place)             an object for this vertex with the two functions below
 //     sample(side, wo, sampler)   wi in the frame of side.p, its weight fs |cosθ| / density, and its pdf; pdf 0 ends the walk
-//     pdf(side, wo, wi, y)        the same pdf, for the weights of multiple importance sampling: the density, per solid angle,
-//                                 with which sample() draws wi and the walk then finds y, or a density used in its place
-//     joins_points                if true, sample() writes the next vertex into one more argument, and a visibility ray is cast
-//                                 to it; otherwise the next vertex is the first hit along wi
+//     pdf(side, wo, wi, y)        the same pdf, for the weights of multiple importance sampling: the density, per solid
+//                                 angle, with which sample() draws wi and the walk then finds y, or a density used in
+//                                 its place
+//     joins_points                if true, sample() writes the next vertex into one more argument, and a visibility ray
+//                                 is cast to it; otherwise the next vertex is the first hit along wi
 //
 // The pdf of a mirror is delta_pdf: light that is found by it has MIS weight 1.
 #pragma once

@@ -13,8 +13,8 @@ struct PathStep {
         first,    // from the camera or from a light
         goes_on,  // after a reflection
         record,   // from a record of a cache
-        asks  // a shadow ray to a point on a light, on the other subpath, on the lens or shared by pixels, or a ray in a direction
-              // sampled for direct light
+        asks      // a shadow ray to a light, the other subpath, the lens or a shared point, or a ray in a direction sampled
+                  // for direct light
     };
     Kind kind = Kind::first;
     bool from_light = false;  // part of the subpath from a light
