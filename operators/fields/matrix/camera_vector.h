@@ -16,7 +16,7 @@ ExitantVector<C> camera_importance(const Scene& scene, const PatchSpace& space, 
 
 // The camera as a matrix, with a row for each pixel (scanline order) and a column for each unknown: the picture of the
 // piecewise constant field f is the matrix times f. Each row has `samples` camera rays, and its sum is the fraction of
-// them that hit an unknown.
+// them that hit an unknown, weighted by CameraSample::weight.
 Eigen::SparseMatrix<double, Eigen::RowMajor> camera_matrix(const Scene& scene, const PatchSpace& space, std::uint32_t samples,
                                                            std::uint64_t seed);
 
