@@ -20,7 +20,7 @@ double FieldCosts::scale(const FieldSettings& settings) const {
     return static_cast<double>(settings.patching.patches) / static_cast<double>(asked_);
 }
 
-// Number of rays of T: at least one per cell of directions.
+// The number of rays of T: at least one per cell of directions.
 double FieldCosts::table(const FieldSettings& settings) const {
     double rays = 0.0;
     for (const auto& [cells, count] : sides_) rays += static_cast<double>(count) * std::max(settings.rays, cells);

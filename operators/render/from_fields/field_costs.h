@@ -13,13 +13,13 @@ struct FieldCost {
 
 class FieldCosts {
 public:
-    // The film is kept by reference.
+    // Keeps a reference to the film.
     explicit FieldCosts(const Film& film) : film_(&film) {}
 
     // Learns from a render with these settings that took `seconds` altogether.
     void add(const FieldSettings& settings, const FieldPictures& pictures, double seconds);
-    // The time of fields is linear in the rays of T, that of pictures in the samples, each with a constant part. The bytes include
-    // the previous pictures, which are kept meanwhile.
+    // The time of the fields is linear in the rays of T, that of the pictures in the samples, each with a constant
+    // part. The bytes include the previous pictures, which are kept meanwhile.
     FieldCost predict(const FieldSettings& settings) const;
 
 private:
@@ -33,7 +33,8 @@ private:
 
     const Film* film_;
     std::map<std::uint32_t, std::size_t> sides_;
-    std::size_t patches_ = 0, asked_ = 0, unknowns_ = 0;  // of the last render; `asked_`: the number of patches in its settings
+    // of the last render; `asked_`: the patches its settings asked for
+    std::size_t patches_ = 0, asked_ = 0, unknowns_ = 0;
     bool has_links_ = false;
     Line fields_, pictures_;
     double other_ = 0.0;

@@ -10,10 +10,10 @@ namespace neumann {
 
 namespace {
 
-// A gather ray follows at most so many mirrors if these have unknowns, and then reads the patches; without unknowns it goes on, by
-// Russian roulette beyond the last bounce.
+// The longest chain of mirrors that a gather ray follows. If mirrors have unknowns, it reads the patches at the end of
+// the chain; otherwise it goes on, by Russian roulette beyond the last bounce.
 constexpr std::uint32_t most_mirrors_with_unknowns = 16, most_links = 1000;
-// A ray that takes all directions takes part in Russian roulette below this part of its sample.
+// A ray that takes all directions takes part in Russian roulette below this share of its sample.
 constexpr double least_share = 0.01;
 
 // to[k] += weight · from[k − 3]: each quantity gets the previous one.
@@ -23,7 +23,7 @@ void add_reflected(const Rgb& weight, const double* __restrict from, std::size_t
         for (std::size_t c = 0; c < 3; ++c) to[k + c] += w[c] * from[k + c - 3];
 }
 
-// Light that comes to these by links is added apart from what rays find.
+// Whether light that comes by links to the start of this ray is left out of what the ray reads; it is added separately.
 bool leaves_out_links(const PixelRay& l, const FieldPair& fields) { return l.diffuse && fields.by_links; }
 
 }  // namespace
@@ -68,7 +68,7 @@ std::uint64_t FieldGather::ask_lights_at_links(std::span<PixelRay> seen, const F
     return lights_.find_at_links(asking);
 }
 
-// Of the rays that go on; the others are removed.
+// Chooses directions for the rays that go on and removes the others.
 void FieldGather::choose_directions(std::vector<PixelRay>& seen, std::uint32_t ray) const {
     std::vector<PixelRay> others;
     std::erase_if(seen, [](const PixelRay& l) { return !l.goes_on; });
@@ -89,9 +89,9 @@ void FieldGather::choose_directions(std::vector<PixelRay>& seen, std::uint32_t r
     std::erase_if(seen, [](const PixelRay& l) { return !l.goes_on; });
 }
 
-// At the end of a ray: adds what it brings, or makes it start there.
+// Ends a ray: adds the light that it brings, or makes it start again at the point it has reached.
 void FieldGather::read_or_go_on(PixelRay& l, const FieldPair& fields, bool compares, std::vector<double>& arriving) const {
-    // The direct light at other first vertices is already sampled (bounce 1).
+    // The direct light at first vertices that are not specular is already sampled (bounce 1).
     if (const Rgb emitted =
             (l.links > 0 || l.takes_all) && !leaves_out_links(l, fields) ? scene_.emitters.emitted(l.y, -l.wi) : Rgb(0.0);
         !is_black(emitted)) {
@@ -128,14 +128,15 @@ void FieldGather::read_or_go_on(PixelRay& l, const FieldPair& fields, bool compa
     add_reflected(-weight, arriving.data(), from_field_, stride_, l.sample->difference);
 }
 
-// What `arriving` is set to: bounce i is K times its bounce i − 1, and the rest is K times the sum of its bounce N and rest.
-// `by_links` adds to the field, in the place of `replaced`.
+// Sets `arriving`: bounce i is K times bounce i − 1 of the field, and the rest is K times the sum of its bounce N and
+// rest. `by_links` is added to the field in the place of `replaced`.
 void FieldGather::arrive(const FieldStack& field, const PixelRay& l, const Patches::Place& place, const FieldStack* replaced,
                          std::span<const float> by_links, std::vector<double>& arriving) const {
     const std::size_t rest = stride_ - 3;
     std::fill(arriving.begin(), arriving.end(), 0.0);
-    // Linear interpolation between the patches' centres does not preserve their means; it would lose up to some percent of a
-    // bounce. A diffuse surface can gather the piecewise constant field, because patches do not show there.
+    // Linear interpolation between the centres of patches does not preserve their means and would lose up to some
+    // percent of a bounce. A diffuse surface can gather the piecewise constant field, because patches do not show
+    // there.
     if (l.diffuse)
         field.add(field.space().unknown(l.y, -l.wi), 0, 1.0, arriving.data());
     else
@@ -149,7 +150,7 @@ void FieldGather::arrive(const FieldStack& field, const PixelRay& l, const Patch
     const auto take_in_last = [&] {
         for (std::size_t c = 0; c < 3; ++c) arriving[rest - 3 + c] += arriving[rest + c];
     };
-    // Lights are found without the field, which has none from afar.
+    // Emitted light is found at the lights; the field has none from afar.
     std::fill_n(arriving.begin(), 3, 0.0);
     for (std::uint32_t link = 0; link < std::min<std::uint32_t>(l.links, static_cast<std::uint32_t>(stride_)); ++link) {
         take_in_last();

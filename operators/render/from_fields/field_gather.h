@@ -1,4 +1,5 @@
-// Gather rays: K applied once more at a pixel, to the fields that a ray from there finds on patches, by way of mirrors and glass.
+// Gather rays apply K once more at a pixel: to the fields that a ray from there finds on patches, directly or by
+// mirrors and glass.
 #pragma once
 
 #include "operators/fields/matrix/field_stack.h"
@@ -18,8 +19,8 @@ struct FieldPair {
 
 class FieldGather {
 public:
-    // `rays`: per sample. `stride`: the floats of a pixel, as of FieldStack. Bounces that end before the float `from_field` are
-    // found otherwise.
+    // `rays`: gather rays per sample. `stride`: the floats of a pixel, as in FieldStack. Bounces that end before the
+    // float `from_field` are found without fields.
     FieldGather(const Scene& scene, const PixelLights& lights, std::size_t stride, std::size_t from_field, std::uint32_t rays);
 
     // Adds the bounces from `from_field` on, and the rest, to the samples. Returns the number of rays cast.

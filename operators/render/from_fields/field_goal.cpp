@@ -22,10 +22,10 @@ constexpr std::uint32_t pilot_samples = 4;
 // A step multiplies no part by more than this: estimates from few samples are rough.
 constexpr double most_growth = 8.0;
 constexpr double without_limit = 1e6;
-// Renders take up to this many times the predicted time and memory.
+// Renders take up to this many times their predicted time and memory.
 constexpr double caution = 1.2;
-// If the error is out of reach, a step pays if the error falls at least like (total time)^−least_slope; the error of samples falls
-// like its power −1/2.
+// If the error is out of reach, a step pays if the error falls at least like (total time)^−least_slope; the error of
+// sampling falls like the power −1/2.
 constexpr double least_slope = 1.0 / 8.0;
 // Without an error to reach, a step pays if the error falls by this part.
 constexpr double least_gain = 0.05;
@@ -84,7 +84,8 @@ public:
 
     WorstError worst() const { return errors_.worst(); }
 
-    // Nothing where no step is to be taken; why_not() then says why. `under_way`: settings of a render that was begun, or null.
+    // The settings of the next render, or nothing if there should be none; why_not() then gives the reason.
+    // `under_way`: settings of a render that was begun, or null.
     std::optional<FieldSettings> next(double seconds, const FieldSettings* under_way) {
         spent_ = seconds;
         if (same(last_, most_)) return stop(Outcome::samples_reached, "these are the largest settings");
@@ -95,7 +96,7 @@ public:
             if (fits(pilot)) return pilot;
             if (!under_way) return stop_short(pilot);
         }
-        // However little time is left: most of it may be done.
+        // A render that was begun goes on however little time is left, because most of it may be done.
         if (under_way) {
             FieldSettings settings = *under_way;
             settings.memory = most_.memory;
@@ -258,7 +259,7 @@ std::optional<FieldRun> render_fields_to_goal(const Scene& scene, FieldSettings 
             tell();
             return watch.stop() || clock.seconds() > end;
         };
-        // What is under way is not replaced by what comes before it.
+        // A saved render that is under way must not be replaced by the smaller ones before it.
         auto pictures = render_by(team, scene, *next, in_time, under_way && !goes_on ? nullptr : saving);
         if (!pictures && under_way && watch.stop()) return std::nullopt;
         if (!pictures) {

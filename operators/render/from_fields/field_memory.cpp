@@ -8,11 +8,11 @@
 namespace neumann {
 
 double bytes_of_fields(const FieldSettings& settings, const FieldSizes& sizes) {
-    // Importance also needs T* and R* of four channels.
-    // A ray that goes on by links (operators/fields/matrix/chains.h) takes 60 with its links; half of them is a room of mirrors.
+    // Importance also needs T* and R* of four channels. A ray that goes on by links (operators/fields/matrix/chains.h)
+    // takes 60 bytes with its links; in a room of mirrors about half of the rays do.
     const double bytes_of_ray = settings.reading == FieldReading::importance ? 48.0 : sizes.has_links ? 34.0 : 4.0;
-    // About ten vectors of four channels while a series is computed; then three floats per quantity, and a quarter of that for the
-    // coarser patches; and three times as many for light that comes by links.
+    // A series needs about ten vectors of four channels while it is computed; then three floats per quantity, a quarter
+    // of that for the coarser patches, and three times as much in all with light that comes by links.
     const double stacks = sizes.has_links ? 45.0 : 15.0;
     const double bytes_of_unknown = 320.0 + stacks * settings.replicates * (settings.bounces + 2.0);
     return 300.0 * sizes.patches + bytes_of_ray * sizes.rays + bytes_of_unknown * sizes.unknowns;
@@ -20,7 +20,8 @@ double bytes_of_fields(const FieldSettings& settings, const FieldSizes& sizes) {
 
 double bytes_of_pictures(const FieldSettings& settings, const Film& film) {
     const double quantities = settings.bounces + 2.0, pixels = static_cast<double>(film.crop_width) * film.crop_height;
-    // Floats for all replicates, the difference to coarser patches and the mean; doubles for one Estimate.
+    // These are floats for all replicates, the difference to coarser patches and the mean, and doubles for one
+    // Estimate.
     return pixels * (3.0 * sizeof(float) * quantities * (settings.replicates + 2.0) + 9.0 * sizeof(double));
 }
 

@@ -7,11 +7,11 @@ namespace neumann {
 
 struct FieldSizes {
     double patches = 0.0, unknowns = 0.0, rays = 0.0;  // `rays`: rays of T in one replicate
-    bool has_links = false;                            // some rays of T go on by links
+    bool has_links = false;                            // whether some rays of T go on by links
 };
 
-// Bytes of the fields: patches, T, the fields of all replicates and work space. Bytes of the pictures: the values of all
-// replicates.
+// The bytes of the fields are those of patches, T, the fields of all replicates and work space; the bytes of the
+// pictures are those of the values of all replicates.
 double bytes_of_fields(const FieldSettings& settings, const FieldSizes& sizes);
 double bytes_of_pictures(const FieldSettings& settings, const Film& film);
 

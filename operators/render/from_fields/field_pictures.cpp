@@ -32,7 +32,7 @@ Estimate FieldPictures::picture(std::size_t first, std::size_t last) const {
         for (std::size_t q = first; q <= last; ++q) sum += Rgb(v[3 * q], v[3 * q + 1], v[3 * q + 2]);
         return sum;
     };
-    std::vector<SampleRange> ranges(pixels);  // of the replicates
+    std::vector<SampleRange> ranges(pixels);  // the ranges of the replicates' values
     oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::size_t>(0, pixels, 1024), [&](const auto& range) {
         std::vector<Rgb> found(replicates_);
         for (std::size_t pixel = range.begin(); pixel < range.end(); ++pixel) {
@@ -58,8 +58,8 @@ Estimate FieldPictures::picture(std::size_t first, std::size_t last) const {
     return result;
 }
 
-// At the edges of what is seen replicates agree by chance: as many of their samples meet it. What one sample more or less brings is
-// told by the pixels beside.
+// At the edges of lit areas replicates agree by chance, because equally many of their samples meet the light. The
+// neighbouring pixels show how much one sample more or less changes.
 void FieldPictures::raise_errors(const std::vector<SampleRange>& ranges, Estimate& picture) const {
     const double t = student_t_quantile(0.95, replicates_ - 1.0);
     oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::size_t>(0, ranges.size(), 1024), [&](const auto& range) {
@@ -132,7 +132,7 @@ void FieldPictures::group_is_complete(std::size_t group) {
 
 void FieldPictures::add_groups() {
     find_differences();
-    // In a fixed order, so that the result does not depend on threads.
+    // The order is fixed, so that the result does not depend on threads.
     sums_.assign(sums_of_quantity * quantities_ * replicates_, 0.0);
     for (std::size_t k = 0; k < sums_of_groups_.size(); ++k) sums_[k % sums_.size()] += sums_of_groups_[k];
     sums_of_groups_ = {};
@@ -193,7 +193,7 @@ MeanWithError FieldPictures::mean(std::size_t first, std::size_t last, std::size
                              (n * (which == 3 ? 3.0 : 1.0));
     if (n == 1.0) return {sum / n, std::numeric_limits<double>::infinity(), 0.0};
     const double spread = std::sqrt(squares / (n * (n - 1.0)));
-    // One sample more or less of the whole picture.
+    // This is the effect of one sample more or less in the whole picture.
     double d = 0.0;
     for (std::size_t q = first; q <= last; ++q)
         for (std::size_t c = 0; c < 3; ++c)

@@ -6,9 +6,10 @@ namespace neumann {
 
 namespace {
 
-// Streams that differ from those of the series.
+// These streams differ from those of the series.
 constexpr std::uint64_t picture_stream = 0x706963747572ull, gather_stream = 0x676174686572ull;
-// Of a group of pixels; and of one, which may have any number.
+// The samples of a group of pixels that are read at once, and the most that a single pixel reads at once, as it may
+// have any number.
 constexpr std::uint32_t samples_at_once = 64, most_at_once = 4096;
 
 }  // namespace
@@ -22,8 +23,8 @@ FieldPixels::FieldPixels(const Scene& scene, const FieldSettings& settings)
       stride_(3 * (static_cast<std::size_t>(settings.bounces) + 2)),
       sobol_(settings.samples),
       gather_sobol_(settings.samples * settings.gather_rays),
-      // Only the first samples of a replicate, which are also well distributed, are compared with coarser patches. With gather all
-      // are, because the reader compares only some gather rays.
+      // Only the first samples of a replicate, which are also well distributed, are compared with coarser patches. With
+      // gather all of them are, because the reader compares only some gather rays.
       compared_(settings.reading == FieldReading::gather ? settings.samples : (settings.samples + 3) / 4),
       reader_(scene, settings.reading, settings.bounces, settings.gather_rays) {}
 

@@ -17,24 +17,27 @@ namespace neumann {
 
 class FieldPixels {
 public:
-    // Of a thread.
+    // Work space of one thread.
     struct Workspace {
-        std::vector<Sampler> samplers, gather_samplers;  // one for each sample that is read at once; one for each pixel
+        // one sampler per sample that is read at once, one gather sampler per pixel
+        std::vector<Sampler> samplers, gather_samplers;
         std::vector<PixelSample> samples;
-        std::vector<double> values, difference;  // pixel by pixel; for the values, replicate by replicate; quantity by quantity
+        // pixel by pixel, for `values` also replicate by replicate, then quantity by quantity
+        std::vector<double> values, difference;
     };
 
-    // Keeps references to both.
+    // Keeps references to both arguments.
     FieldPixels(const Scene& scene, const FieldSettings& settings);
 
     std::uint32_t pixels() const { return pixels_; }
-    std::uint32_t group() const { return group_; }  // pixels of one
+    std::uint32_t group() const { return group_; }  // pixels of one group
     std::uint32_t groups() const { return (pixels_ + group_ - 1) / group_; }
-    // The place of a group's values in FieldPictures; for groups(): the end.
+    // The index of a group's first value in FieldPictures; for groups() the end.
     std::size_t first_value(std::uint32_t group) const {
         return std::min(std::size_t{group} * group_, std::size_t{pixels_}) * stride_ * (settings_.replicates + std::size_t{1});
     }
-    // Adds what the fields have to the values of a group, if light by links is there, or else sets them. Returns the rays cast.
+    // Adds the light read from the fields to the values of a group if they hold light by links already, and otherwise
+    // sets them. Returns the rays cast.
     RaysByBounce read(std::uint32_t group, std::span<const TracedSeries> series, std::span<const LinkFields> by_links,
                       FieldPictures& pictures, Workspace& work) const;
 
@@ -42,9 +45,9 @@ private:
     const Scene& scene_;
     const FieldSettings& settings_;
     std::uint32_t width_, pixels_, group_;
-    std::size_t stride_;  // floats of a replicate
+    std::size_t stride_;  // number of floats of a replicate
     SobolPoints sobol_, gather_sobol_;
-    std::uint32_t compared_;  // samples of a replicate
+    std::uint32_t compared_;  // number of a replicate's samples that are also read from coarser patches
     FieldReader reader_;
 };
 

@@ -1,4 +1,4 @@
-// What there is of a render from fields on patches while it is under way, from which another process can go on, to the same bits.
+// The state of an unfinished render from fields on patches. Another process can go on from it, to the same bits.
 #pragma once
 
 #include "operators/fields/matrix/saved_series.h"
@@ -14,35 +14,36 @@ namespace neumann {
 
 struct FieldProgress {
     FieldSettings settings;
-    double seconds = 0.0;                               // of the whole render or search so far
-    double field_seconds = 0.0, picture_seconds = 0.0;  // of these settings, to trace and sum, and to read
-    std::vector<SavedSeries> series;                    // of the first replicates
+    double seconds = 0.0;  // of the whole render or search so far
+    // with these settings: tracing and summing, and reading the pictures
+    double field_seconds = 0.0, picture_seconds = 0.0;
+    std::vector<SavedSeries> series;  // the first replicates
 
     // Groups of pixels [begin, end) that have been read.
     struct Read {
         std::uint32_t begin, end;
         RaysByBounce rays;
-        std::span<const float> values;  // as FieldPictures has them
+        std::span<const float> values;  // in the layout of FieldPictures
     };
     std::vector<Read> read;
-    std::vector<float> values;  // those to which `read` refers, if it is alone
+    std::vector<float> values;  // the memory of `read`, if no FieldPictures holds it
 };
 
 struct FieldSaving {
-    // Taken if it has the settings that are to be rendered. A search for settings goes to these, which have to be within its
-    // limits, as soon as it may.
+    // The saved state, taken if it has the settings that are to be rendered. A search goes to its settings, which must
+    // be within the limits of the search, as soon as it may.
     std::optional<FieldProgress> from = {};
-    // Whether progress is to be kept now, or, in the end, that of a render that was stopped; as keep(), from any thread, one at a
-    // time.
+    // is_due() says whether to keep the progress now; `is_stopped` asks for that of a render that was stopped, at its
+    // end. Both functions are called from any thread, one at a time.
     std::function<bool(bool is_stopped)> is_due;
     std::function<void(FieldProgress&)> keep;
-    // When all pictures of what was kept last are there.
+    // Called when all pictures of the last kept state are there.
     std::function<void()> has_all = [] {};
 };
 
-// Whether both make the same pictures.
+// Whether both settings make the same pictures.
 bool same_pictures(FieldSettings a, const FieldSettings& b);
-// Whether a search that ends with `most` may render with these settings.
+// Whether a search that ends with `most` may render with `settings`.
 bool is_within(const FieldSettings& settings, const FieldSettings& most);
 
 }  // namespace neumann

@@ -9,7 +9,8 @@ namespace neumann {
 
 namespace {
 
-// Readings of one field for one pixel, which mostly share their patches: each is read once, with the sum of its weights.
+// The readings of one field for one pixel. They mostly share their patches, so each patch is read once, with the sum of
+// its weights.
 class Readings {
 public:
     void add(const PatchSpace::Reading& reading, double weight, double of_difference) {
@@ -33,7 +34,7 @@ private:
         std::uint32_t number;
         double weight, of_difference;
     };
-    // Only the last ones are looked through: what a pixel sees may have any number of patches.
+    // Only the last entries are searched, because a pixel may see any number of patches.
     Unknown& find(std::uint32_t number) {
         constexpr std::size_t most = 12;
         for (std::size_t i = unknowns_.size(), end = i > most ? i - most : 0; i-- > end;)
@@ -65,10 +66,10 @@ NEUMANN_HOT RaysByBounce FieldReader::read(const FieldPair& fields, std::span<co
     const auto to_gather = reading_ == FieldReading::gather
                                ? seen.begin()
                                : std::stable_partition(seen.begin(), seen.end(), [](const PixelRay& l) { return l.diffuse; });
-    // Where bounce 1 has no picture, the fields that are interpolated have it in the rest.
+    // If bounce 1 has no picture, the interpolated fields contain it in the rest.
     rays[1] = lights_.find(from_field_ > 3 ? std::span(seen) : std::span(to_gather, seen.end()));
     add_interpolated(fields, std::span(seen.begin(), to_gather));
-    // Gather rays from diffuse points leave out what comes to these by links.
+    // Gather rays from diffuse points leave out light that comes to these points by links, so it is added here.
     for (const PixelRay& l : std::span(to_gather, seen.end()))
         if (fields.by_links && l.diffuse)
             fields.by_links->kept.add(fields.fine.space().read(l.x, l.wo), from_field_, l.sample->weight, l.sample->values);

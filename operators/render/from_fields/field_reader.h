@@ -26,7 +26,7 @@ using RaysByBounce = std::array<std::uint64_t, 3>;
 
 class FieldReader {
 public:
-    // `gather_rays`: per sample.
+    // `gather_rays`: gather rays per sample.
     FieldReader(const Scene& scene, FieldReading reading, int bounces, std::uint32_t gather_rays);
     FieldReader(const FieldReader&) = delete;
 

@@ -38,7 +38,7 @@ Glossy glossy_of(const FieldSettings& settings, const Scene& scene) {
     return shows_patches(settings.reading) ? Glossy::in_cells : glossy_of_pictures(scene);
 }
 
-// `processes`: how many share the rays.
+// `processes`: the number of processes that share the rays.
 PatchSpace patches_of(const FieldSettings& settings, const Scene& scene, int processes) {
     const auto asked = static_cast<double>(settings.patching.patches);
     check_field_memory(settings, scene.film, {asked, asked, asked * settings.rays / processes});
@@ -100,7 +100,7 @@ public:
     }
 
 private:
-    // Throws RunError if what is there cannot be of this scene.
+    // Throws RunError if the saved progress cannot be of this scene.
     void expect_whole(const FieldProgress& begun) const {
         bool whole = begun.series.size() <= settings_.replicates;
         for (const SavedSeries& series : begun.series)
@@ -112,14 +112,14 @@ private:
         if (!whole) throw RunError("what is kept of this render has other sizes than its scene: it cannot be gone on with");
     }
 
-    // Ends a part of the work whose seconds are counted, and begins another.
+    // Ends one part of the timed work and begins another, whose seconds are added to *next.
     void spend(double* next) {
         *spends_ += clock_.seconds();
         clock_ = Stopwatch();
         spends_ = next;
     }
 
-    // The series of all replicates.
+    // Traces or restores the series of all replicates.
     void trace() {
         const auto there = static_cast<std::uint32_t>(rows_.sum(begun_ ? static_cast<double>(begun_->series.size()) : 0.0));
         pictures_.rest_converges = settings_.rest;
@@ -144,7 +144,7 @@ private:
                                     : neumann::trace_series(scene_, rows_, coarser_, reflection_, traced, watch_);
     }
 
-    // One that was traced before; the first process has it, and gives it to the others.
+    // Restores a series that was traced before; process 0 has it and shares it with the others.
     TracedSeries take_series(std::uint32_t replicate) const {
         SavedSeries saved = begun_ ? std::move(begun_->series[replicate]) : SavedSeries();
         if (processes_) {
@@ -155,7 +155,7 @@ private:
             saved.rest_converges = numbers[1] > 0.0;
             saved.rays = static_cast<std::uint64_t>(numbers[2]);
             saved.light_rays = static_cast<std::uint64_t>(numbers[3]);
-            saved.power.resize(static_cast<std::size_t>(settings_.bounces) + 1);  // only the first tells it
+            saved.power.resize(static_cast<std::size_t>(settings_.bounces) + 1);  // only process 0 uses the power
             saved.numbers.resize(saved_size(space_, coarser_, settings_.bounces, saved.has_links));
             processes_->share(saved.numbers);
         }
@@ -177,7 +177,7 @@ private:
         pictures_.set_resolution(RayResolution(series_, counts));
     }
 
-    // Light that comes by links, as points.
+    // Adds light that comes by links, as points.
     void show_links() {
         if (!series_.front().fine_by_links || !shows_links(scene_)) return;
         const double rays =
@@ -245,7 +245,7 @@ private:
         keep(false);
     }
 
-    // Of groups [begin, end), those that were read before.
+    // Takes the saved values of those groups in [begin, end) that were read before.
     void take_groups(std::uint32_t begin, std::uint32_t end) {
         if (!begun_) return;
         for (const FieldProgress::Read& read : begun_->read) {
@@ -268,9 +268,9 @@ private:
         for (std::uint32_t group = 0; group < groups_; ++group) read_[group] = read[group] > 0.0;
     }
 
-    // From any thread, and of groups that are read already.
+    // Keeps the progress, with the groups read so far. May be called from any thread.
     void keep(bool is_stopped) {
-        if (!saving_ || (begun_ && !has_taken_all_)) return;  // what is there already is more
+        if (!saving_ || (begun_ && !has_taken_all_)) return;  // the saved progress contains more
         const std::unique_lock lock(keeps_, std::try_to_lock);
         if (!lock || !saving_->is_due(is_stopped)) return;
         FieldProgress progress;
@@ -298,9 +298,9 @@ private:
     const Watch& watch_;
     Processes* processes_;
     FieldSaving* saving_;
-    FieldProgress* begun_ = nullptr;  // what is there already
-    bool has_taken_all_ = false;      // of it
-    double* spends_ = nullptr;        // what the clock's seconds belong to
+    FieldProgress* begun_ = nullptr;  // the saved progress, or null
+    bool has_taken_all_ = false;      // of `begun_`
+    double* spends_ = nullptr;        // where the clock's seconds are added
     Stopwatch clock_;
     const PatchSpace space_, coarser_;
     const SceneReflection reflection_;
@@ -310,9 +310,9 @@ private:
     std::vector<TracedSeries> series_;
     std::vector<LinkFields> by_links_;
     std::uint32_t groups_;                 // of pixels
-    std::vector<std::atomic<bool>> read_;  // which of them are
+    std::vector<std::atomic<bool>> read_;  // for each group, whether it has been read
     std::vector<RaysByBounce> rays_of_group_;
-    std::size_t later_;  // where rays of later bounces are counted
+    std::size_t later_;  // index under which the rays of later bounces are counted
     std::mutex keeps_;
 };
 

@@ -1,4 +1,4 @@
-// A scene rendered from fields on patches: T is traced, the series summed, and the pictures read, replicate by replicate.
+// Renders a scene from fields on patches: traces T, sums the series, and reads the pictures, replicate by replicate.
 #pragma once
 
 #include "core/base/processes/processes.h"
@@ -11,9 +11,10 @@
 
 namespace neumann {
 
-// Returns nothing if `watch` stops it. With `processes` for all of them together: each has some rows of T and reads some of the
-// pixels, and process 0 has the pictures, those of one process alone; what the others return has no values. Not for importance.
-// `saving`, of process 0, is kept from time to time, and what it has to begin with is not made again.
+// Returns nothing if `watch` stops it. With `processes`, all of them must call it: each has some rows of T and reads
+// some of the pixels, and process 0 returns the same pictures as one process alone would; those of the others have no
+// values. Importance takes no `processes`. `saving` is used by process 0: progress is kept from time to time, and work
+// that it already contains is not done again.
 std::optional<FieldPictures> render_fields(const Scene& scene, const FieldSettings& settings, const Watch& watch = {},
                                            Processes* processes = nullptr, FieldSaving* saving = nullptr);
 

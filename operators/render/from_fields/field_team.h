@@ -13,9 +13,9 @@ class Scene;
 class FieldTeam {
 public:
     virtual ~FieldTeam() = default;
-    // How many of them share the memory of this machine.
+    // The number of these processes that share the memory of this machine.
     virtual int on_this_machine() const = 0;
-    // render_fields() by all of them.
+    // Calls render_fields() in all of them.
     virtual std::optional<FieldPictures> render(const Scene& scene, const FieldSettings& settings, const Watch& watch,
                                                 FieldSaving* saving) = 0;
 };

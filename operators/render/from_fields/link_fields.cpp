@@ -8,7 +8,8 @@ namespace neumann {
 
 namespace {
 
-// How much finer and coarser patches differ in the light of a bounce that comes by links, relative to it.
+// The difference between finer and coarser patches in the light of a bounce that comes by links, relative to that
+// light.
 struct Blur {
     double with_noise = 0.0, without = 0.0;
 };
@@ -63,7 +64,7 @@ std::vector<LinkFields> divide_by_links(const std::vector<TracedSeries>& replica
                                         const std::function<double(std::size_t)>& noise_of_points) {
     std::vector<LinkFields> fields;
     for (std::size_t r = 0; r < replicates.size(); ++r) fields.emplace_back(replicates[r], std::move(rasters[r]));
-    // A cell of the raster has a quarter of enough_ends at least.
+    // A cell of the raster has at least a quarter of enough_ends.
     const double noise_of_raster =
         2.0 / std::sqrt(0.25 * static_cast<double>(LinkRaster::enough_ends) * static_cast<double>(replicates.size()));
     for (std::size_t k = 2; k < fields.front().shown_as_points.size(); ++k) {

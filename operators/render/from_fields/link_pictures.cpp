@@ -11,7 +11,7 @@ namespace neumann {
 namespace {
 
 constexpr std::uint64_t link_stream = 0x73706c617473ull, lens_stream = 0x6c656e73ull;
-// The raster takes about so many paths.
+// The approximate number of paths that the raster takes.
 constexpr double most_ends = 2e6;
 
 struct Found {
@@ -33,7 +33,7 @@ struct Found {
     }
 };
 
-// Whether light that ends there is read from fields.
+// Whether light that ends on this side is read from fields.
 bool is_diffuse(const SurfaceSide& side) { return side.bsdf && !is_glossy(side.bsdf); }
 
 class LinkPainter {

@@ -1,6 +1,7 @@
-// Light that comes by links (operators/fields/matrix/link_light.h) to diffuse sides, as pictures show it. Reflected off a mirror or
-// refracted through glass it draws sharp figures, caustics, which patches would blur. Where the camera sees the end of such a path,
-// the path is added to the pixels there; and where it is seen in a mirror or through glass, it is read from a raster.
+// Pictures of light that comes by links (operators/fields/matrix/link_light.h) to diffuse sides. Reflected off a mirror
+// or refracted through glass it draws sharp figures, caustics, which patches would blur. Where the camera sees the end
+// of such a path, the path is added to the pixels there; where the end is seen in a mirror or through glass, it is read
+// from a raster.
 #pragma once
 
 #include "core/scene/scene.h"
@@ -13,7 +14,8 @@
 
 namespace neumann {
 
-// Whether the paths can be seen: not by a camera that looks through lights, nor by a single ray.
+// Whether the ends of such paths can be joined to the camera: not if the camera looks through lights, nor if it is a
+// single ray.
 bool shows_links(const Scene& scene);
 
 struct LinkPictures {
@@ -22,7 +24,8 @@ struct LinkPictures {
     std::uint64_t rays = 0;
 };
 
-// `rays`: their approximate number. Throws Stopped if `watch` stops it. Where the rows are shared, all processes have all.
+// `rays`: the approximate number of rays. Throws Stopped if `watch` stops it. If the rows are shared, all processes get
+// the whole result.
 LinkPictures picture_links(const Scene& scene, const RowShare& rows, double rays, std::uint64_t seed, int bounces,
                            const Watch& watch = {});
 

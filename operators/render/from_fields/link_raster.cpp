@@ -32,7 +32,7 @@ Vec2 LinkRaster::spread(const Chart& chart, const Vec2& st) {
     return Vec2(gather_bits(k) + 0.5, gather_bits(k >> 1) + 0.5) / along;
 }
 
-// On a Morton curve over the chart's finest cells.
+// The index along a Morton curve over the chart's finest cells.
 std::uint32_t LinkRaster::place(const Vec2& st) {
     constexpr double n = 1u << levels;
     const auto cell = [&](double x) { return static_cast<std::uint32_t>(std::clamp(x * n, 0.0, n - 1.0)); };
@@ -47,7 +47,8 @@ LinkRaster::End::End(std::uint32_t chart, bool front, const Vec2& st, std::uint3
 
 LinkRaster::LinkRaster(const Patches& patches, std::vector<End> ends, int bounces)
     : fine_{3 * static_cast<std::size_t>(std::max(bounces, 1))}, coarse_(fine_) {
-    // All that is known of an end is in the key, so that the order of equal ones, and with it the sums, is determined.
+    // The key contains everything about an end, so that the order of equal ends does not matter and the sums are
+    // deterministic.
     oneapi::tbb::parallel_sort(ends.begin(), ends.end(), [](const End& a, const End& b) {
         return std::tie(a.side, a.place, a.bounce, a.power) < std::tie(b.side, b.place, b.bounce, b.power);
     });
@@ -67,7 +68,7 @@ LinkRaster::LinkRaster(const Patches& patches, std::vector<End> ends, int bounce
     }
 }
 
-// To the level `least`, where there are ends at all.
+// Cells with any ends are divided at least to the level `least`.
 void LinkRaster::Cells::divide(std::span<const End> ends, std::size_t enough, std::uint32_t least, const Chart& chart,
                                std::uint32_t from, std::uint32_t level) {
     const bool divides = level < least ? !ends.empty() : ends.size() >= enough && level < levels;

@@ -1,6 +1,6 @@
-// Light that comes by links (operators/fields/matrix/link_light.h) on diffuse sides, as what is seen in a mirror or through glass
-// reads it: incident radiance on cells of each chart. They are quartered as long as enough paths end there, so that caustics stay
-// sharp, and in any case until they are about as small as patches.
+// The incident radiance of light that comes by links (operators/fields/matrix/link_light.h) to diffuse sides, on cells
+// of each chart. It is read where such a side is seen in a mirror or through glass. Cells are quartered as long as
+// enough paths end there, so that caustics stay sharp, and in any case until they are about as small as patches.
 #pragma once
 
 #include "core/base/vec.h"
@@ -28,18 +28,17 @@ public:
         End() = default;
         End(std::uint32_t chart, bool front, const Vec2& st, std::uint32_t bounce, const Rgb& power);
     };
-    // The coordinates by which ends and readings are named. Clusters of faces follow one another along s alone, and here along a
-    // Morton curve through the square, so that each quarter of a cell is a range of them.
+    // Maps coordinates on a chart to those of ends and readings. Clusters of faces follow one another along s alone;
+    // this lays them along a Morton curve through the square, so that each quarter of a cell is a range of clusters.
     static Vec2 spread(const Chart& chart, const Vec2& st);
-    // Bounces 2 … N + 1, the last with all later ones.
+    // Takes bounces 2 … N + 1; the last one contains all later ones.
     LinkRaster(const Patches& patches, std::vector<End> ends, int bounces);
 
-    // The incident radiance in bounce 2, 3, …, three floats each: mean over a cell, and over a cell of about four times the size.
-    // The two are the same only on a chart that is one patch.
+    // The incident radiance in bounce 2, 3, …, three floats each: the mean over a cell, and over a cell of about four
+    // times the size. The two are the same only on a chart that is one patch.
     struct Reading {
         std::span<const float> fine, coarse;
     };
-    // Sets a bounce to zero.
     void set_to_zero(std::size_t bounce);
     Reading read(std::uint32_t chart, bool front, const Vec2& st) const {
         const std::size_t side = 2 * std::size_t{chart} + (front ? 0 : 1);

@@ -51,7 +51,7 @@ std::uint64_t PixelLights::find_at_links(std::span<PixelRay* const> rays) const 
     return asking.size();
 }
 
-// Chooses a point on a light and sets y and the weight of what it brings; false if it brings nothing.
+// Chooses a point on a light and sets y and the weight of its contribution; false if it contributes nothing.
 bool PixelLights::ask(PixelRay& l, Sampler& sampler, const Rgb& scale, bool asks_directions_too) const {
     const LightSample light = lights_.sample(l.x.position, sampler.next2());
     if (!(light.pdf > 0.0)) return false;
@@ -64,7 +64,7 @@ bool PixelLights::ask(PixelRay& l, Sampler& sampler, const Rgb& scale, bool asks
     return !is_black(l.weight);
 }
 
-// Adds the light that is asked for, where it is visible.
+// Casts the shadow rays and adds the light that is visible.
 void PixelLights::add_visible(std::span<PixelRay* const> asking) const {
     constexpr std::size_t packet = RayCaster::packet_size;
     for (std::size_t begin = 0; begin < asking.size(); begin += packet) {
@@ -84,7 +84,7 @@ std::uint64_t PixelLights::find_by_chance(std::span<PixelRay> rays) const {
     const Emitters& emitters = scene_.emitters;
     std::vector<PixelRay*> asking;
     for (PixelRay& l : rays) {
-        // The others find theirs when they take all directions.
+        // The other rays find light when they take all directions.
         if (!emitters.empty() && !l.takes_all && asks_chance(l) && l.choose_direction(scene_.materials, *l.sample->sampler))
             asking.push_back(&l);
     }
@@ -103,8 +103,9 @@ std::uint64_t PixelLights::find_by_chance(std::span<PixelRay> rays) const {
     return asking.size();
 }
 
-// Near the lights (closer than the size of their box), where the variance of points on them may be infinite, and if the material is
-// not diffuse. The choice depends on x alone, so the estimate stays unbiased.
+// Whether directions from the BSDF are used as well: near the lights (closer than the size of their box), where the
+// variance of points on them may be infinite, and if the material is not diffuse. The choice depends on x alone, so the
+// estimate stays unbiased.
 bool PixelLights::asks_chance(const PixelRay& l) const {
     return !l.diffuse || glm::distance(l.x.position, glm::clamp(l.x.position, low_, high_)) < near_;
 }

@@ -1,4 +1,5 @@
-// Direct light at the points that rays of pixels reach: by points on lights, and by chance.
+// Samples direct light at the points that rays of pixels reach: by light samples (points on lights), and by directions
+// from the BSDF that happen to hit a light.
 #pragma once
 
 #include "core/emitter/light_sampler.h"
@@ -16,10 +17,11 @@ public:
     bool empty() const { return lights_.empty(); }
     double pdf(const Vec3& x, const Vec3& w, const SurfacePoint& y) const { return lights_.pdf(x, w, y); }
 
-    // Bounce 1 at points that are seen by pixels, by one point on a light each, and where directions from the BSDF are used as
+    // Adds bounce 1 at points that pixels see, by one light sample each and, where directions from the BSDF are used as
     // well, by one of these. Returns the number of rays.
     std::uint64_t find(std::span<PixelRay> rays) const;
-    // At links that have other directions than those of mirrors and glass; chance finds it too, when the next ray meets a light.
+    // Adds direct light by light samples at links that do not only have the directions of mirrors and glass; the next
+    // ray may meet the same light.
     std::uint64_t find_at_links(std::span<PixelRay* const> rays) const;
     // The bounce of the light that a ray finds at its last vertex.
     std::size_t bounce_of(const PixelRay& l) const { return std::min<std::size_t>(l.links + 1, last_bounce_); }

@@ -1,4 +1,4 @@
-// A ray of a pixel at the point that it has reached: what the parts of FieldReader hand to each other.
+// A ray of a pixel at the point that it has reached: the parts of FieldReader hand it to each other.
 #pragma once
 
 #include "core/sampling/sampler.h"
@@ -12,10 +12,10 @@
 
 namespace neumann {
 
-// A camera ray, and where its sample times `weight` is added: `values` has three numbers for each quantity of FieldStack.
-// `difference`, if not null, gets `difference_weight` times the sample from the finer patches minus that from the coarser ones.
-// `sampler` continues after the numbers that made the camera ray. `gather_sampler` is shared by all gather rays of the pixel, so
-// that they are stratified together; those of this sample start at `first_gather_ray`.
+// A camera ray, and where its sample times `weight` is added: `values` has three numbers for each quantity of
+// FieldStack. `difference`, if not null, gets `difference_weight` times the sample from the finer patches minus that
+// from the coarser ones. `sampler` continues after the numbers that made the camera ray. `gather_sampler` is shared by
+// all gather rays of the pixel, so that they are stratified together; those of this sample start at `first_gather_ray`.
 struct PixelSample {
     CameraRay ray;
     double weight;
@@ -39,16 +39,17 @@ struct PixelRay {
     bool diffuse;
     Rgb weight;
     double pdf;
-    // Where wo and wi lead: `through` and `weight` are of basic radiance L/n², and lights have radiance.
+    // The refractive indices in the directions wo and wi: `through` and `weight` are for basic radiance L/n², while
+    // lights have radiance.
     double index = 1.0, index_beyond = 1.0;
-    // For a gather ray: its throughput, and the number of links (operators/fields/matrix/links.h): of mirrors and other sides from
-    // which it went on.
+    // The throughput of a gather ray, and the number of links (operators/fields/matrix/links.h) from which it went on,
+    // such as mirrors.
     Rgb through;
     std::uint32_t links = 0;
     bool goes_on;
-    // All vertices so far send light in two directions at most, and the ray has taken all of them, in copies of itself.
+    // All vertices so far send light in at most two directions, and the ray has taken all of them, in copies of itself.
     bool takes_all = false;
-    double compared_part = 1.0;  // of its rays, that are compared with coarser patches: the inverse
+    double compared_part = 1.0;  // 1 / the part of the sample's rays that are compared with coarser patches
 
     void go_on_with_probability(double p, Sampler& sampler) {
         if (p >= 1.0) return;
@@ -70,7 +71,7 @@ struct PixelRay {
         pdf = sampled.pdf;
         index_beyond = index * sampled.index;
     }
-    // Takes the directions of a material that has two at most: the first itself, and the second by a copy in `others`.
+    // Takes all directions of a material that has at most two: the first itself, and the second by a copy in `others`.
     bool take_all(const Materials& materials, std::vector<PixelRay>& others) {
         const SurfaceSide side = materials.side(x, wo);
         const auto first = side.bsdf ? choice(*side.bsdf, side.p.frame.to_local(wo)) : std::nullopt;
@@ -89,7 +90,7 @@ struct PixelRay {
     }
 };
 
-// Mirrors and smooth glass: all light goes in one direction or two.
+// Whether all light goes in one or two directions, as with mirrors and smooth glass.
 inline bool has_few_directions(const Bsdf& bsdf) { return choice(bsdf, Vec3(0.0, 0.0, 1.0)).has_value(); }
 
 // Casts n rays in packets and calls each(i); from(i) and hit(i) are as in Geometry::first_hits. The point is at infinity if nothing

@@ -4,10 +4,10 @@ namespace neumann {
 
 namespace {
 
-// Fields and pixels are floats.
+// The relative rounding error: fields and pixels are floats.
 constexpr double rounding = 0x1p-22;
 
-// σ/mean of each quantity over all unknowns, weighted by their measure, as rays hit them.
+// σ/mean of each quantity over all unknowns, weighted by their measure, which is how often rays hit them.
 std::vector<Rgb> contrasts(const std::vector<TracedSeries>& replicates) {
     const PatchSpace& space = replicates.front().fine.space();
     const std::size_t quantities = replicates.front().fine.stride() / 3;

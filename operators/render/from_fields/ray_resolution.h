@@ -15,10 +15,10 @@
 
 namespace neumann {
 
-// Numbers of rays in all replicates together.
+// The numbers of rays in all replicates together.
 struct RayCounts {
-    double of_facet = 0.0, all = 0.0;            // of T
-    double lights_of_facet = 0.0, lights = 0.0;  // light samples for b; 0 if b comes from T
+    double of_facet = 0.0, all = 0.0;            // rays of T: per facet, and all
+    double lights_of_facet = 0.0, lights = 0.0;  // light samples for b: per facet, and all; 0 if b comes from T
     double gathered = 0.0;                       // gather rays of a pixel; 0 if pixels read the field
     double pixels = 0.0;
     std::size_t sampled_at_pixel = 0;  // the first quantities are sampled at the pixel and need no such bound
@@ -28,7 +28,8 @@ struct RayCounts {
 class RayResolution {
 public:
     RayResolution() = default;
-    // `replicates`: the finer fields. Quantity i + 1 is R T of quantity i; the rest is R T of bounce N plus itself.
+    // `replicates`: the finer fields are used. Quantity i + 1 is R T of quantity i; the rest is R T of bounce N plus
+    // itself.
     RayResolution(const std::vector<TracedSeries>& replicates, const RayCounts& counts);
 
     // The least standard error of a quantity, relative to its value: in a pixel, and of the mean over all pixels.

@@ -13,12 +13,12 @@ namespace {
 
 constexpr std::uint32_t block_width = 8, samples_of_pilot = 4;
 constexpr std::uint64_t allocation_stream = 0x414c4c4f43504c54ULL;
-// A pixel has at most 2^most_doublings times as many samples as the mean, and at least as small a part.
+// A pixel has at most 2^most_doublings times the mean number of samples, and at least the mean divided by that.
 constexpr int most_doublings = 4;
-// Rare light that the pilot did not meet may be anywhere.
+// This part of the variance is spread over all blocks, because rare light that the pilot did not meet may be anywhere.
 constexpr double spread_out = 0.1;
 
-// Of the samples of a group's pixels: for each pixel and quantity the sum over channels of the variance, and of the squared mean.
+// For each pixel and quantity, the variance of its samples and their squared mean, each summed over channels.
 struct PixelSpread {
     std::vector<double> variance, square;  // bounces 0 … N and the sum of all, pixel by pixel
 };
@@ -36,7 +36,7 @@ PixelSpread spread_of(std::span<const Rgb> samples, std::size_t pixels, std::siz
                 squares += x * x;
             }
             const Rgb mean = sum / n, variance = (squares - sum * mean) / (n - 1.0);
-            // An unbiased estimate of the squared mean; small means cancel over the picture.
+            // This is an unbiased estimate of the squared mean; its noise in dark pixels cancels over the picture.
             const Rgb square = mean * mean - variance / n;
             found.variance[pixel * quantities + q] = std::max(variance.r + variance.g + variance.b, 0.0);
             found.square[pixel * quantities + q] = square.r + square.g + square.b;

@@ -1,7 +1,7 @@
-// How several unbiased methods are best mixed over the blocks of a picture and its bounces.
+// Mixes several unbiased methods in the best way over the blocks of a picture and its bounces.
 //
-// With V_mkb the variance of a sample by method m of bounce k in block b, as a part of the bounce's squared size, c_mb what the
-// sample costs, and s_mb samples in each pixel, the means are weighted by their precision,
+// Let V_mkb be the variance of a sample by method m of bounce k in block b, as a part of the bounce's squared size,
+// c_mb the cost of the sample, and s_mb the samples in each pixel. The means are weighted by their precision,
 //
 //     w_mkb = (s_mb / V_mkb) / P_kb,   P_kb = Σ_m s_mb / V_mkb,      and the error of bounce k is  e_k² = Σ_b 1 / P_kb.
 //
@@ -9,17 +9,18 @@
 //
 //     g_mb = Σ_k λ_k / (V_mkb P_kb²)   is c_mb times the same for all s_mb > 0.
 //
-// With r_k the squared size of bounce k as a part of the sum's, whose bounces count as if they were independent, so that the sum's
-// error is e² = Σ_k r_k e_k², these λ make least
+// Let r_k be the squared size of bounce k as a part of the sum's. Bounces count as if they were independent, so that
+// the sum's error is e² = Σ_k r_k e_k². These λ minimise
 //
 //     the sum's error                          λ_k = r_k
 //     the product of that and all bounces'     λ_k ∝ 1/e_k² + r_k/e²
 //     the largest of a bounce                  λ_k > 0 only for the bounces with the largest error
 //
-// s is found by multiplying s_mb by √(g_mb / c_mb) again and again, as designs of experiments are (Titterington 1976; Yu 2010), and
-// λ of the largest error by making it larger where the error is above the mean, in the same steps. A method that has as many
-// samples in all blocks is multiplied by √(Σ_b g_mb / Σ_b c_mb). As in MARS (Grittmann et al. 2024), who choose numbers of samples
-// of techniques by pilots; there techniques share their paths' weights, here methods are estimators of their own.
+// s is found by multiplying s_mb by √(g_mb / c_mb) again and again, as in the design of experiments (Titterington 1976;
+// Yu 2010), and λ of the largest error by making it larger where the error is above the mean, in the same steps. A
+// method that has equally many samples in all blocks is multiplied by √(Σ_b g_mb / Σ_b c_mb). MARS (Grittmann et al.
+// 2024) likewise chooses numbers of samples of techniques by pilots; there techniques share their paths' weights, here
+// each method is an estimator of its own.
 #pragma once
 
 #include "operators/render/from_paths/least_error.h"
@@ -43,17 +44,17 @@ struct MixtureCosts {
 
 // s_mb, method by method.
 std::vector<double> best_mixture(const MixtureCosts& costs, LeastError least);
-// w_mkb, arranged as variances; with s_mb = 0 for all m the methods have equal weights.
+// w_mkb, arranged as the variances; if s_mb = 0 for all m, the methods have equal weights.
 std::vector<double> weights_of(const MixtureCosts& costs, const std::vector<double>& numbers);
-// e_k² with these numbers.
+// The e_k² with these numbers.
 std::vector<double> errors_of(const MixtureCosts& costs, const std::vector<double>& numbers);
-// What best_mixture() makes least: the largest e_k², e², or the geometric mean of e² and all e_k². (In one method's picture the
-// largest e_k² would count with the last, allocation.h. Here it is what pilots know least, and where a method missed its paths they
-// would trust it.)
+// The quantity that best_mixture() minimises: the largest e_k², e², or the geometric mean of e² and all e_k². (Unlike
+// the last in allocation.h, the geometric mean is not multiplied by the largest e_k²: pilots know that least, and would
+// trust a method where it missed its paths.)
 double least_of(const MixtureCosts& costs, const std::vector<double>& numbers, LeastError least);
 // Each method's part of the cost.
 std::vector<double> shares_of(const MixtureCosts& costs, const std::vector<double>& numbers);
-// What is left of the costs without one method.
+// The costs without those of one method.
 MixtureCosts without(const MixtureCosts& costs, std::size_t method);
 
 }  // namespace neumann

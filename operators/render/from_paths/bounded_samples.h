@@ -18,10 +18,10 @@ namespace neumann {
 // find a light that touches a surface, if vertices are sampled on surfaces that touch, and near a light without extent.
 bool samples_are_bounded(const Scene& scene, const SamplingSettings& settings);
 
-// True if the variance of the rest is finite as well, provided that the series converges. In the rest all methods sample the BSDFs,
-// and roulette keeps the weight of a path constant: what a sample brings is at most proportional to the number of bounces that it
-// survives, which falls off exponentially. (Single weights w above 1, as mixtures of lobes have, change nothing while
-// E[w max(w, 1)] < 1.) Only roulette with a fixed survival q lets weights grow, and needs ρ² < q.
+// True if the variance of the rest is finite as well, provided that the series converges. In the rest all methods
+// sample the BSDFs, and roulette keeps the weight of a path constant: a sample is at most proportional to the number of
+// bounces that its path survives, which falls off exponentially. (Single weights w above 1, as mixtures of lobes have,
+// change nothing while E[w max(w, 1)] < 1.) Only roulette with a fixed survival q lets weights grow, and needs ρ² < q.
 bool rest_has_finite_variance(const Scene& scene, const SamplingSettings& settings);
 
 }  // namespace neumann

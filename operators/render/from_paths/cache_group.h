@@ -22,8 +22,8 @@ struct CacheSampler::Workspace {
     Tally tally;
 };
 
-// Samples all quantities of these pixels in the replicate into work.group: the terms 0 … N and the rest, and
-// then what each loses if the cache is read within wider radii.
+// Samples all quantities of these pixels in the replicate into work.group: the terms 0 … N and the rest, and then for
+// each term what it loses if the cache is read within wider radii.
 template <class Observer>
 void CacheSampler::trace_group(std::uint64_t replicate, const PixelGroup& pixels, const CachePass& pass, Workspace& work,
                                const Observer& observer) const {
@@ -47,7 +47,8 @@ void CacheSampler::trace_group(std::uint64_t replicate, const PixelGroup& pixels
                 const Rgb &E = work.irradiance[2 * (k - 1)], &of_wide = work.irradiance[2 * (k - 1) + 1];
                 if (!is_black(E)) find(i, q, weight * E);
                 const Rgb lost = weight * (E - of_wide);
-                if (is_finite(lost)) out.quantities[i * Q + terms + q] += lost;  // what is not is found in the term
+                // a difference that is not finite is found in the term
+                if (is_finite(lost)) out.quantities[i * Q + terms + q] += lost;
                 all += weight * E;
             }
             observer.reads(i, static_cast<std::uint32_t>(*largest * records_->cells().size() + pass.brightest_ray(*largest)),

@@ -26,15 +26,16 @@ public:
     bool is_prepared() const override { return true; }
     std::uint64_t rays() const override { return records_->rays(); }
     double walks_worth(int, std::span<const double>) const override { return 16.0; }
-    // r√2 and r; it errs up and down between its records. Where light has edges the error is of order r, and the difference 0.41 of
-    // it; where it is smooth, of order r², and the difference the whole. A third is taken, as the grid convergence index has it for
-    // two grids and an order of 2 (Roache, Perspective: A Method for Uniform Reporting of Grid Refinement Studies, 1994).
+    // The radii are r√2 and r, and the bias changes its sign between records. Where light has edges the error is of
+    // order r, and the difference is 0.41 of it; where it is smooth the error is of order r², and the difference is all
+    // of it. One third is taken, as in the grid convergence index for two grids and an order of 2 (Roache, Perspective:
+    // A Method for Uniform Reporting of Grid Refinement Studies, 1994).
     std::optional<TwoRadii> two_radii() const override {
         return TwoRadii{.part_of_bias = 1.0 / 3.0, .errs_both_ways = true, .difference_is_of_kernel = false};
     }
-    // Records stand at fixed places, apart from what they see.
+    // Samples are bounded because records stand at fixed places, at a distance from what they see.
     bool is_bounded(const SamplingSettings&) const override { return true; }
-    bool has_events() const override { return false; }  // means of many rays
+    bool has_events() const override { return false; }  // samples are means of many rays
     std::string why_no_checkup() const override {
         return "records are shared by all pixels, and those of a pass are filled together";
     }
@@ -52,7 +53,7 @@ public:
                         const Watch& watch) const override;
     // Fills the cache of the replicate again.
     std::vector<Rgb> retrace(std::uint64_t replicate, std::uint32_t first, PathObserver& observer) const override;
-    // A ray of a record.
+    // `ray`: the number of a ray of a record.
     std::uint32_t of_read(std::uint32_t) const override { return 0; }
     void retrace_read(std::uint64_t replicate, std::uint32_t ray, PathObserver& observer) const override;
 

@@ -1,5 +1,5 @@
-// Where replicates agree in a pixel whose samples differ, their spread says that there is no error, which is chance
-// (operators/statistics/one_sample_more.h). A goal must not stop there.
+// Corrects the errors of pixels whose samples differ although their replicates agree: their spread is zero by chance
+// (operators/statistics/one_sample_more.h), and a goal must not stop there.
 #pragma once
 
 #include "operators/statistics/one_sample_more.h"
@@ -11,8 +11,8 @@
 
 namespace neumann {
 
-// The term with errors for such pixels. `ranges`: of the samples, all quantities of a pixel together, of which `quantity` is one,
-// of `samples` each; if they are unknown, nothing is changed.
+// Returns the term with larger errors in such pixels. `ranges`: the ranges of the samples, for all quantities of a
+// pixel, `quantity` being one of them; nothing is changed if they are unknown. `samples`: per pixel.
 inline Estimate without_chance_agreement(Estimate term, const SampleRanges& ranges, std::size_t quantity, double samples) {
     const std::size_t pixels = term.mean.pixels.size(), stride = ranges.of.size() / pixels;
     const double t = student_t_quantile(0.95, term.degrees_of_freedom);

@@ -10,14 +10,14 @@
 
 namespace neumann {
 
-// Of each camera sample.
+// The settings of the first vertex of each camera sample.
 inline constexpr FirstVertex at_pixel{.lights = 1, .directions = 4, .points = 1, .clamp = 100.0};
 
 struct CorrectedSampler::Workspace {
     explicit Workspace(std::size_t quantities) : average(quantities), tally(quantities) {}
     PathGroup group;
     CorrectedWalkers walkers;
-    std::vector<Sampler> camera, directions;  // of the group's samples, and of its pixels
+    std::vector<Sampler> camera, directions;  // one sampler per pixel
     PixelAverage average;
     Tally tally;
 };

@@ -29,7 +29,7 @@ public:
     std::uint64_t rays() const override { return approximation_->rays(); }
     double walks_worth(int, std::span<const double>) const override { return 2.0; }
     bool is_bounded(const SamplingSettings&) const override { return true; }
-    bool has_events() const override { return false; }  // what points carry may be negative
+    bool has_events() const override { return false; }  // contributions of points may be negative
     std::string why_no_balance() const override { return "a walk's weight is only what points that pixels share leave to it"; }
 
 private:
@@ -38,7 +38,8 @@ private:
 
 class CorrectedSampler : public PathSampler {
 public:
-    // Rays for the points of a replicate, as a part of those for its pixels, roughly; of small pictures it is more.
+    // The rays for the points of a replicate, roughly, as a part of those for its pixels; in small pictures the part is
+    // larger.
     static constexpr double share_of_points = 0.1;
 
     CorrectedSampler(const Scene& scene, const SamplingSettings& settings, std::shared_ptr<const Approximation> approximation);
@@ -50,15 +51,15 @@ public:
     std::vector<Rgb> retrace(std::uint64_t replicate, std::uint32_t first, PathObserver& observer) const override;
     std::unique_ptr<const PathsToInspect> to_inspect() const override;
 
-    // What the pixels of a replicate share; nothing if no surface is diffuse.
+    // The points that the pixels of a replicate share; nothing if no surface is diffuse.
     std::optional<SharedPoints> points_of(std::uint64_t replicate) const;
-    // With these points, or null.
+    // As above, with these points, or without any if null.
     std::vector<Rgb> retrace(std::uint64_t replicate, std::uint32_t first, const SharedPoints* points,
                              PathObserver& observer) const;
 
 private:
     struct Workspace;
-    // Independent random numbers for the walks from first diffuse vertices.
+    // The stream of the walks from first diffuse vertices, whose random numbers are independent of the others.
     static constexpr std::uint64_t direction_stream = 0x676174686572ull;
     template <class Observer = NoObserver>
     void trace_group(std::uint64_t replicate, const PixelGroup& pixels, const SharedPoints* points, Workspace& work,
@@ -67,7 +68,7 @@ private:
     std::shared_ptr<const Approximation> approximation_;
     std::shared_ptr<const DirectLightSampler> direct_;
     std::shared_ptr<const PointMaker> points_;  // refers to *direct_ and to *approximation_
-    std::vector<SobolPoints> direction_nets_;   // of pixels with 1, 2, 4, … samples
+    std::vector<SobolPoints> direction_nets_;   // for pixels with 1, 2, 4, … samples
 };
 
 }  // namespace neumann

@@ -55,7 +55,7 @@ void BalanceSheet::arrive(int bounce, const SurfacePoint& x, const Vec3& w, cons
     entry.absorbed += mean_component(beta * (Rgb(1.0) - albedo(x, w)));
 }
 
-// The albedo ρ of a surface, for paths from the camera and, with R*, from lights.
+// The albedo ρ of a surface, for paths from the camera and, with R*, for paths from lights.
 Rgb BalanceSheet::albedo(const SurfacePoint& x, const Vec3& w) {
     const SurfaceSide side = scene_->materials.side(x, w);
     const Vec2 u_material = random_.next2(), u_uniform = random_.next2();

@@ -1,4 +1,4 @@
-// What contributions at positions on the film bring to the pixels whose filter covers them.
+// The shares of a contribution at a position on the film: one for each pixel whose filter covers the position.
 #pragma once
 
 #include "operators/paths/bidirectional/film_splats.h"
@@ -15,14 +15,15 @@ struct PixelShare {
     Rgb value;
 };
 
-// The pixel of the crop in which a position lies, or the next one.
+// The pixel of the crop in which a position lies, or the nearest one.
 inline std::uint32_t pixel_at(const Film& film, const Vec2& position) {
     const int x = std::clamp(static_cast<int>(std::floor(position.x)) - film.crop_x, 0, film.crop_width - 1),
               y = std::clamp(static_cast<int>(std::floor(position.y)) - film.crop_y, 0, film.crop_height - 1);
     return static_cast<std::uint32_t>(y * film.crop_width + x);
 }
 
-// Adds a contribution at a position, which a pixel gets times its filter. One that is not finite is recorded and left out.
+// Adds the shares of a contribution: each pixel gets it times its filter. A contribution that is not finite is recorded
+// and left out.
 inline void spread(const Film& film, const Vec2& position, std::size_t quantity, const Rgb& value, const SampleName& name,
                    std::vector<PixelShare>& shares, Tally& tally) {
     const SamplePlace place{pixel_at(film, position), name};

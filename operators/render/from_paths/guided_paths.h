@@ -15,7 +15,7 @@ public:
     bool is_prepared() const override { return true; }
     std::uint64_t rays() const override { return guide_->rays(); }
     double walks_worth(int, std::span<const double>) const override { return 2.0; }
-    // Its tables mix in the BSDF.
+    // Samples can be bounded because the tables mix in the BSDF.
     bool is_bounded(const SamplingSettings& settings) const override;
 
 private:

@@ -1,4 +1,5 @@
-// Pieces of work that are made in any order, on all threads, and added in a fixed one: the same bits on any number of threads.
+// Work in pieces that are made in any order, on all threads, and added in a fixed one: the same bits on any number of
+// threads.
 #pragma once
 
 #include <oneapi/tbb/info.h>
@@ -10,8 +11,8 @@
 
 namespace neumann {
 
-// Calls make(k, piece), from any thread, and add(k, piece), in order of k, for k = 0 … count − 1, until add returns false. Returns
-// whether all were added. Pieces are used again.
+// Calls make(k, piece), from any thread, and add(k, piece), in order of k, for k = 0 … count − 1, until add returns
+// false. Returns whether all were added. Piece objects are reused.
 template <class Piece, class Make, class Add>
 bool add_in_order(std::size_t count, const Make& make, const Add& add) {
     struct Place {

@@ -1,4 +1,4 @@
-// What the samples of a picture are distributed for.
+// The error that the distribution of a picture's samples makes least.
 #pragma once
 
 namespace neumann {

@@ -13,7 +13,7 @@ struct MetropolisSampler::CameraWork {
     std::vector<CameraRay> rays;
     std::vector<double> weights;
     Walkers walkers;
-    std::vector<Rgb> emitted;  // of each ray, with its weight
+    std::vector<Rgb> emitted;  // by each ray, times its weight
 };
 
 struct MetropolisSampler::Workspace {

@@ -15,10 +15,10 @@ namespace neumann {
 
 namespace {
 
-// Independent paths of a replicate, as a part of the states of a bounce's chains.
+// A replicate has one independent path for this many states of a bounce's chains.
 constexpr std::uint64_t states_for_a_path = 2;
 constexpr std::uint32_t groups_at_once = 8;
-// Streams of random numbers of the starts and of the chains.
+// The streams of random numbers of the starts and of the chains.
 constexpr std::uint64_t start_stream = 0x5354415254535f4dULL, chain_stream = 0x434841494e535f4dULL;
 
 std::uint32_t independent_paths(std::uint64_t states, std::uint32_t pixels) {
@@ -38,7 +38,7 @@ ChainNumbers chain_numbers(std::uint64_t states, std::uint32_t length) {
     return {static_cast<std::uint32_t>(states / length / chains_at_once * chains_at_once), length};
 }
 
-// What one batch of chains, or some independent paths, bring.
+// The contributions of one batch of chains, or of some independent paths.
 struct MetropolisSampler::Piece {
     std::vector<PixelShare> shares;
     ChainStatistics statistics;
@@ -63,7 +63,7 @@ void MetropolisSampler::sample_emission(std::uint64_t replicate, std::vector<Rgb
     const std::size_t Q = settings_.quantities();
     const std::uint32_t size = settings_.replicate_size, pixels_at_once = std::max(paths_at_once / size, 1u);
     oneapi::tbb::enumerable_thread_specific<Workspace> workspaces([&] { return Workspace(Q); });
-    // Whole pixels, so that each is added up by one thread and in order.
+    // Each task takes whole pixels, so that a pixel is added up by one thread and in order.
     oneapi::tbb::parallel_for(std::uint32_t{0}, (pixels_ + pixels_at_once - 1) / pixels_at_once, [&](std::uint32_t group) {
         Workspace& work = workspaces.local();
         const std::uint32_t begin = group * pixels_at_once * size, end = std::min((group + 1) * pixels_at_once, pixels_) * size;
@@ -140,7 +140,7 @@ MetropolisSampler::Starts MetropolisSampler::find_starts(std::uint64_t replicate
     for (double& x : u) x = random.next();
     std::vector<WantedStart> wanted = choose_starts(sums, numbers_.chains, u);
     std::erase_if(wanted, [&](const WantedStart& w) { return w.chain < first_chain || w.chain >= end_chain; });
-    std::vector<std::size_t> begins;  // of the groups' parts
+    std::vector<std::size_t> begins;  // where the entries of each group begin
     for (std::size_t k = 0; k < wanted.size(); ++k)
         if (k == 0 || wanted[k].group != wanted[k - 1].group) begins.push_back(k);
 

@@ -1,9 +1,10 @@
-// Samples the terms by Metropolis light transport (operators/paths/metropolis): chains for each bounce, for that is what a term is.
-// A replicate is a whole picture and has its own independent paths, from which its own chains start, so that replicates are
-// independent of each other. Bounce 0 is sampled by camera rays, and the rest by the independent paths.
+// Samples the terms by Metropolis light transport (operators/paths/metropolis), with chains for each bounce, since each
+// term is a bounce. A replicate is a whole picture and has its own independent paths, from which its own chains start,
+// so that replicates are independent of each other. Bounce 0 is sampled by camera rays, and the rest by the independent
+// paths.
 //
-// Mutation j of a replicate is one of each bounce's chains: path j % 64 of step (j / 64) % length of batch j / 64 / length. It
-// shares its name with camera ray j, for bounce 0, and independent path j, for the rest.
+// Mutation j of a replicate belongs to one chain of each bounce: path j % 64 of step (j / 64) % length of batch j / 64
+// / length. It shares its name with camera ray j, for bounce 0, and independent path j, for the rest.
 #pragma once
 
 #include "core/sampling/sampler.h"
@@ -15,23 +16,23 @@
 
 namespace neumann {
 
-// The chains of each bounce in a replicate, and the number of their states, the first included.
+// The number of chains of each bounce in a replicate, and of states of a chain, the first included.
 struct ChainNumbers {
     std::uint32_t chains = 0, length = 0;
     std::uint64_t states() const { return std::uint64_t{chains} * length; }
 };
-// `states`: at most so many of each bounce; `length`: of a chain, if there are enough states for chains_at_once chains.
+// `states`: the most states of each bounce; `length`: states of a chain, if there are enough for chains_at_once chains.
 ChainNumbers chain_numbers(std::uint64_t states, std::uint32_t length);
 
 class MetropolisPaths : public PathMethod {
 public:
     static constexpr std::uint32_t default_length = 512;
-    // `length`: states of a chain, where there are enough.
+    // `length`: states of a chain, if there are enough.
     explicit MetropolisPaths(std::uint32_t length = default_length) : length_(length) {}
     std::uint32_t length() const { return length_; }
 
     std::shared_ptr<const PathSampler> sampler(const Scene& scene, const SamplingSettings& settings) const override;
-    // By their rays: k + 1 for bounce k = 1 … N, and half an independent path.
+    // The ratio follows from the rays: k + 1 for bounce k = 1 … N, and half an independent path.
     double walks_worth(int bounces, std::span<const double>) const override { return 1.25 + 0.375 * bounces; }
     bool has_even_samples() const override { return true; }
     bool starts_at_lights() const override { return true; }
@@ -52,9 +53,9 @@ public:
 
     bool sample_picture(std::uint64_t replicate, std::vector<Rgb>& picture, SampleRanges& ranges, Tally& tally,
                         const Watch& watch) const override;
-    // Runs the chains of these names again, and traces all independent paths.
+    // Runs the chains of this group again, and traces all independent paths.
     std::vector<Rgb> retrace(std::uint64_t replicate, std::uint32_t first, PathObserver& observer) const override;
-    // The independent paths, from which chains start.
+    // Inspects the independent paths, from which chains start.
     std::unique_ptr<const PathsToInspect> to_inspect() const override;
 
 private:
@@ -75,7 +76,7 @@ private:
     void sample_emission(std::uint64_t replicate, std::vector<Rgb>& picture, SampleRanges& ranges, Tally& tally) const;
     std::optional<BrightnessSums> sample_brightness(std::uint64_t replicate, std::vector<Rgb>& splatted, Tally& tally,
                                                     const Watch& watch) const;
-    // Those of some chains.
+    // Finds the starts of chains first_chain … end_chain − 1.
     Starts find_starts(std::uint64_t replicate, const BrightnessSums& sums, std::uint32_t first_chain, std::uint32_t end_chain,
                        std::vector<std::uint64_t>& rays) const;
     std::vector<Sampler> random_of(int bounce, std::uint32_t batch) const;

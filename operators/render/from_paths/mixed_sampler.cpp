@@ -63,7 +63,7 @@ double MixedSampler::weight(std::size_t part, std::size_t quantity, std::uint32_
 
 double MixedSampler::scale(std::size_t part, std::size_t quantity, std::uint32_t pixel) const {
     const double own = parts_[part]->layout().size(pixel) / static_cast<double>(settings_.replicate_size), other = splats_[part];
-    // Where both bring light, the one with fewer samples.
+    // If both its own samples and paths from the lights contribute to the pixel, the smaller number is taken.
     const double samples = own > 0.0 && other > 0.0 ? std::min(own, other) : std::max(own, other);
     return samples > 0.0 ? weight(part, quantity, pixel) / samples : 0.0;
 }
@@ -111,8 +111,8 @@ bool MixedSampler::sample_picture(std::uint64_t replicate, std::vector<Rgb>& pic
         });
         const auto rename = [&](SamplePlace& place) { place.name.sample = place.name.sample * parts + part; };
         for (NonFiniteSample& sample : counted.non_finite) rename(sample.place);
-        // Of those that the method itself found large: where blocks have other weights, some that it did not keep may be larger
-        // now.
+        // These samples were found large by the method itself. If blocks have different weights, some that it did not
+        // keep may be larger now.
         for (std::size_t q = 0; q < Q; ++q) {
             const LargestSamples of = std::exchange(counted.largest[q], {});
             counted.largest[q].outdo(tally.largest[q]);

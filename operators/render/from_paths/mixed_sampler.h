@@ -1,7 +1,5 @@
-// Samples the terms by several methods, whose pictures are mixed (mixture.h). A replicate is a whole picture by
-// each of them.
-//
-// Sample j of method m of n, both counted from 0, has the name j n + m.
+// Samples the terms by several methods, whose pictures are mixed (mixture.h). A replicate is a whole picture by each of
+// them. Sample j of method m of n, both counted from 0, has the name j n + m.
 #pragma once
 
 #include "operators/render/from_paths/mixture.h"
@@ -30,7 +28,7 @@ private:
     std::shared_ptr<const Mixture> mixture_;
 };
 
-// Those of one method of a mixture; its random numbers are of a seed of its own.
+// The settings of one method of a mixture; its random numbers have a seed of their own.
 SamplingSettings settings_of_part(const SamplingSettings& settings, const Mixture& mixture, std::size_t part);
 
 class MixedSampler : public PathSampler {
@@ -52,7 +50,8 @@ private:
     std::uint32_t width_, height_;
     std::shared_ptr<const Mixture> mixture_;
     std::vector<std::shared_ptr<const PictureSampler>> parts_;
-    std::vector<double> splats_;  // of each method: its paths from the lights for each pixel, as a part of the mixture's samples
+    // for each method, the paths from the lights per pixel, as a part of the mixture's samples
+    std::vector<double> splats_;
 };
 
 }  // namespace neumann

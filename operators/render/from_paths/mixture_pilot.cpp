@@ -15,24 +15,25 @@ namespace neumann {
 namespace {
 
 constexpr std::uint32_t first_replicates = 2, all_replicates = 8;
-constexpr double all_samples = 1 << 18;  // of a method, all pixels together
-// A block has so many pixels of the pilot's film on a side.
+constexpr double all_samples = 1 << 18;  // of a method, in all pixels together
+// The side of a block in pixels of the pilot's film.
 constexpr std::uint32_t pilot_block = 2;
-// The variance of a block is in part that of the blocks around it.
+// This part of a block's variance is the mean over the block and those around it.
 constexpr double from_around = 0.1;
-// At least so much of a method's variance is believed to be where the light is.
+// At least this part of a method's variance is believed to be where the light is.
 constexpr double least_by_light = 0.1;
-// More of it is, if it fills less than 1/few of what is lit.
+// A larger part is, if the variance fills less than 1/few of the lit blocks.
 constexpr double few = 4.0;
-// Of the largest variance of a method that another is believed to have.
+// Any method is believed to have at least this part of the largest variance of a method.
 constexpr double least_variance = 1e-4;
-// Standard errors by which a method must have less light than another to have missed it; and (the rule of three) the number of
-// samples that it would have met at most, with 95% confidence.
+// A method has missed light if it has less than another by this many standard errors. It would have met the missed
+// light with at most met_at_most samples, with 95% confidence (the rule of three).
 constexpr double missed = 3.0, met_at_most = 3.0;
-// A method that is to get a smaller part of the work after the first replicates is left out; and one without which what is made
-// least would be larger by a smaller factor: what a mixture gains, it loses in part because each has fewer samples to stratify.
+// After the first replicates a method is left out if its part of the work would be smaller than share_to_go_on, or if
+// the minimised error without it would be larger by a factor below gain_of_part: a mixture loses part of its gain
+// because each method has fewer samples to stratify.
 constexpr double share_to_go_on = 0.01, gain_of_part = 1.3;
-// A pixel has at most 2^most_powers times as many samples of a method as the mixture has on average.
+// A pixel has at most 2^most_powers times the mixture's mean number of samples of a method.
 constexpr int most_powers = 4;
 
 struct Contender {
@@ -49,22 +50,22 @@ struct Grid {
 
 double sum_of(const Rgb& x) { return x.r + x.g + x.b; }
 double sum_of(const std::vector<double>& all) { return std::accumulate(all.begin(), all.end(), 0.0); }
-// The number of entries over which a sum is spread.
+// The effective number of entries that make up the sum.
 double number_of(const std::vector<double>& all) {
     const double squares = std::inner_product(all.begin(), all.end(), all.begin(), 0.0), sum = sum_of(all);
     return squares > 0.0 ? sum * sum / squares : 0.0;
 }
 
-// For each method and block the variance of a sample of a bounce, summed over pixels and channels; and the squared size of the
-// bounce.
+// For each method and block, the variance of a sample of a bounce, summed over pixels and channels; and the squared
+// size of the bounce.
 struct BounceVariances {
     std::vector<std::vector<double>> of;
     double square = 0.0;
 };
 
-// A method that has not met the rare paths of a bounce sees neither their light nor their variance. So methods are compared with
-// the one that is surest of most light: what another missed came to it with samples so rare, and so large, that it met hardly any.
-// And where a method's variance is from a few samples in a few blocks, it might as well have been in others that are lit.
+// A method that has not met the rare paths of a bounce sees neither their light nor their variance. So each method is
+// compared with the one that is surest of most light: light that it lacks must come in samples so rare and so large
+// that it met hardly any. And variance from a few samples in a few blocks might as well have been in other lit blocks.
 BounceVariances variances_of(const Contenders& all, std::size_t bounce, const Grid& grid) {
     const std::size_t B = grid.blocks.count();
     const MixtureTrial& best =
@@ -111,7 +112,7 @@ BounceVariances variances_of(const Contenders& all, std::size_t bounce, const Gr
 
 struct Measured {
     MixtureCosts costs;
-    std::vector<std::size_t> bounces;  // those with light and variance
+    std::vector<std::size_t> bounces;  // the bounces with light and variance
 };
 
 Measured measure(const Contenders& all, double budget, const Grid& grid) {
@@ -140,7 +141,7 @@ Measured measure(const Contenders& all, double budget, const Grid& grid) {
     return found;
 }
 
-// The methods that are worth it, and the best numbers of their samples.
+// The methods that are worth it, and their best numbers of samples.
 struct Choice {
     Contenders all;
     Measured measured;
@@ -189,7 +190,7 @@ Choice choose(Contenders contenders, double budget, const Grid& grid, LeastError
     }
 }
 
-// Exponents for each method and block; each block has samples of some method.
+// The exponents for each method and block; each block has samples of some method.
 std::vector<std::int8_t> exponents_of(const Choice& chosen) {
     const MixtureCosts& costs = chosen.measured.costs;
     const std::vector<double>& numbers = chosen.numbers;
@@ -205,7 +206,7 @@ std::vector<std::int8_t> exponents_of(const Choice& chosen) {
     return exponents;
 }
 
-// Weights of all bounces; one without variance has those of the samples' numbers.
+// The weights of all bounces; a bounce without variance is weighted by the numbers of samples.
 std::vector<double> weights_of_bounces(const Choice& chosen, const std::vector<double>& numbers, std::size_t bounces) {
     const MixtureCosts& costs = chosen.measured.costs;
     const std::vector<double> known = weights_of(costs, numbers);
@@ -239,7 +240,7 @@ Mixture mix(const Scene& scene, const Scene& view, const std::vector<MixtureCand
     Contenders contenders;
     for (const MixtureCandidate& candidate : candidates) {
         SamplingSettings settings = candidate.settings;
-        // What shared points leave in a pixel depends on their number, not on that of pixels.
+        // The light that shared points leave to a pixel depends on the number of points, not on that of pixels.
         settings.pixels_of_shared = large.width * large.height;
         contenders.push_back({&candidate, std::make_unique<MixtureTrial>(view, settings, size, watch)});
     }

@@ -1,4 +1,4 @@
-// Finds how methods are best mixed in a scene.
+// Finds the best mixture of methods for a scene.
 #pragma once
 
 #include "operators/render/from_paths/mixture.h"
@@ -10,17 +10,19 @@
 
 namespace neumann {
 
-// A method that may be a part of the mixture: all that it needs, and the time of its ray in that of the walk's.
+// A method that may be a part of the mixture: its name, its settings, and the time of its ray relative to a ray of the
+// walk.
 struct MixtureCandidate {
     std::string name;
     SamplingSettings settings;
     double price = 1.0;
 };
 
-// Renders a small picture with each, `view` being the scene on a film of a quarter of its width and height, or so, with the same
-// view, and mixes those that are worth it for the film of `scene`. A sample of the mixture has the work of one of the first
-// candidate; where a single method is left, it is a sample of that, and pixels have the numbers that allocate() gives them. The
-// same for all seeds of `settings`, but by guides and fields as their seed has made them. Throws Stopped if `watch` stops it.
+// Renders a small picture with each candidate and mixes those that are worth it for the film of `scene`. `view`: the
+// same view on a film of about a quarter of its width and height. A sample of the mixture has the work of a sample of
+// the first candidate. If a single method is left, it is a sample of that one, and pixels have the numbers that
+// allocate() gives them. The result is the same for all seeds of `settings`, except that the seed makes guides and
+// fields. Throws Stopped if `watch` stops it.
 Mixture mix(const Scene& scene, const Scene& view, const std::vector<MixtureCandidate>& candidates, LeastError least,
             const Watch& watch = {});
 

@@ -28,7 +28,7 @@ MixtureTrial::MixtureTrial(const Scene& view, const SamplingSettings& settings, 
       sum_of_means_(sampler_.quantities(), 0.0),
       of_squares_(sum_of_means_),
       rays_of_sample_(pixels(), 0.0) {
-    if (!sampler_.path_sampler().has_own_samples()) return;  // go_on() counts
+    if (!sampler_.path_sampler().has_own_samples()) return;  // go_on() counts the rays
     std::atomic<std::uint64_t> all = 0;
     const OwnSamples count = [&](const PixelGroup& group, std::span<const Rgb>, std::span<const std::uint64_t> rays) {
         const std::uint64_t n = std::accumulate(rays.begin(), rays.end(), std::uint64_t{0});

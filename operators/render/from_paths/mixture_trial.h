@@ -1,4 +1,4 @@
-// One method's pilot for a mixture.
+// The pilot of one method for a mixture.
 #pragma once
 
 #include "operators/render/from_paths/picture_sampler.h"
@@ -8,10 +8,11 @@
 
 namespace neumann {
 
-// What is known after some replicates.
+// The estimates after some replicates.
 class MixtureTrial {
 public:
-    // Counts rays. `size`: samples of a pixel in a replicate. Keeps a reference to the scene. Throws Stopped if `watch` stops it.
+    // Counts rays. `size`: samples of a pixel in a replicate. Keeps a reference to the scene. Throws Stopped if `watch`
+    // stops it.
     MixtureTrial(const Scene& view, const SamplingSettings& settings, std::uint32_t size, const Watch& watch);
 
     // Samples more replicates. Throws Stopped if `watch` stops it.
@@ -21,11 +22,11 @@ public:
     std::size_t terms() const { return sampler_.quantities() - 1; }
     double samples() const { return replicates_ * sampler_.settings().replicate_size; }
     Rgb mean(std::uint32_t pixel, std::size_t bounce) const { return sums_[at(pixel, bounce)] / replicates_; }
-    // Of a sample: as many times that of a replicate's mean.
+    // The variance of a single sample: that of a replicate's mean times the samples of the replicate.
     Rgb variance(std::uint32_t pixel, std::size_t bounce) const;
-    // What the mean of the picture, summed over channels, is at least, by two standard errors.
+    // A lower bound, by two standard errors, on the mean of the picture, summed over channels.
     double sure_mean(std::size_t bounce) const;
-    // Of a sample, without what pixels share.
+    // The rays of a sample, without those that pixels share.
     double rays(std::uint32_t pixel) const { return rays_of_sample_[pixel]; }
     std::uint64_t rays() const { return rays_; }
 
@@ -34,8 +35,8 @@ private:
 
     PictureSampler sampler_;
     double replicates_ = 0.0;
-    std::vector<Rgb> sums_, squares_;                // of replicates, all quantities of each pixel
-    std::vector<double> sum_of_means_, of_squares_;  // of pictures' means
+    std::vector<Rgb> sums_, squares_;                // sums over replicates, all quantities of each pixel
+    std::vector<double> sum_of_means_, of_squares_;  // sums over replicates of the pictures' means
     std::vector<double> rays_of_sample_;
     std::uint64_t rays_ = 0;
 };

@@ -1,4 +1,4 @@
-// The samples of pixels one by one, without what other pixels' paths bring there.
+// The samples of pixels one by one, without contributions from the paths of other pixels.
 #pragma once
 
 #include "operators/render/from_paths/sample_layout.h"
@@ -12,7 +12,8 @@
 
 namespace neumann {
 
-// Gets the samples of a group of pixels, path by path with all quantities of a path together, and their rays; on any thread.
+// Receives the samples of a group of pixels, path by path with all quantities of a path together, and their rays;
+// called on any thread.
 using OwnSamples = std::function<void(const PixelGroup&, std::span<const Rgb> samples, std::span<const std::uint64_t> rays)>;
 
 // Calls f(group) for all groups of pixels, on all threads; false if `watch` stops it.

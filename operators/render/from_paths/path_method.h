@@ -1,5 +1,5 @@
-// A way of sampling the terms by paths: its sampler, and whatever a render, its report and its health ask of it. A method is one
-// class, beside its sampler, and nobody else asks which one it is.
+// A way of sampling the terms by paths: its sampler, and everything that a render, its report and its health need to
+// know about it. A method is one class, beside its sampler; no other code distinguishes methods.
 #pragma once
 
 #include "core/base/warnings.h"
@@ -26,17 +26,21 @@ enum class Paths {
 };
 
 enum class Remedy {
-    ask_lights,     // the walk with multiple importance sampling: the vertex that hit the light could have sampled it
-    bidirectional,  // two neighbouring vertices, or the camera and the first vertex, can be connected: paths from the lights find
-                    // light behind a delta lobe more often than walks hit it by chance
-    more_bounces    // the rest is sampled from the camera alone, so a larger N helps
+    ask_lights,  // the walk with multiple importance sampling: the vertex that hit the light could have sampled it
+    // two neighbouring vertices, or the camera and the first vertex, can be connected: paths from the lights find light
+    // behind a delta lobe more often than walks hit it by chance
+    bidirectional,
+    // light behind a delta lobe more often than walks hit it by chance
+    more_bounces  // the rest is sampled from the camera alone, so a larger N helps
 };
 
-// Of a method that reads light near a point, within two radii, from whose difference its bias is estimated (picture_bias.h).
+// Describes a method that reads light near a point, within two radii; the difference estimates its bias
+// (picture_bias.h).
 struct TwoRadii {
     double part_of_bias;  // the difference as a part of the bias
-    bool errs_both_ways;  // its bias is up here and down there, so that the difference is 0 in places where the bias is not
-    bool difference_is_of_kernel;  // the variance of the difference is half of the picture's; otherwise that of the terms
+    bool errs_both_ways;  // the bias has both signs, so that the difference is 0 in places where the bias is not
+    // whether the variance of the difference is half of the picture's; otherwise it is that of the terms
+    bool difference_is_of_kernel;
 };
 
 // Whether some material has a delta lobe.
@@ -48,18 +52,19 @@ public:
 
     // Keeps a reference to the scene.
     virtual std::shared_ptr<const PathSampler> sampler(const Scene& scene, const SamplingSettings& settings) const = 0;
-    // Of a sample: the terms 0 … N and the rest.
+    // The number of pictures of a sample: the terms 0 … N and the rest.
     virtual std::size_t pictures(int bounces) const { return static_cast<std::size_t>(bounces) + 2; }
 
-    // Whether something is made ready before the first sample, and the rays cast for it.
+    // Whether something is prepared before the first sample, and the rays cast for it.
     virtual bool is_prepared() const { return false; }
     virtual std::uint64_t rays() const { return 0; }
-    // The time of a sample beside that of a plain walk, which casts so many rays for each bounce.
+    // The time of a sample relative to that of a plain walk. `rays_of_walk`: the rays that a walk casts for each
+    // bounce.
     virtual double walks_worth(int bounces, std::span<const double> rays_of_walk) const = 0;
-    // Whether its first picture is given up where it is not there in time; that of the walk is waited for.
+    // Whether its first picture is given up if it is not finished in time; that of the walk is waited for.
     virtual bool first_may_be_late() const { return true; }
 
-    // The paths that it makes, and what it warns of in a scene.
+    // The paths that it makes, and its warnings for a scene.
     virtual Paths paths(const Scene&) const { return Paths::all; }
     virtual void warn(const Scene& scene, Warnings& warnings) const;
     // Whether it samples the rest beyond bounce N.
@@ -69,43 +74,45 @@ public:
 
     // Whether samples contribute to pixels all over the film.
     virtual bool splats() const { return false; }
-    // Whether all pixels must have as many samples, for they share all paths.
+    // Whether all pixels must have equally many samples, because they share all paths.
     virtual bool has_even_samples() const { return false; }
-    // So many pixels in a row share paths.
+    // The number of consecutive pixels that share paths.
     virtual std::uint32_t sharing_pixels() const { return 1; }
     // Whether paths start at the camera, and whether at the lights.
     virtual bool starts_at_camera() const { return true; }
     virtual bool starts_at_lights() const { return false; }
     virtual std::optional<TwoRadii> two_radii() const { return std::nullopt; }
 
-    // Whether samples of bounces 0 … N are proven to be bounded where no light is without extent (bounded_samples.h).
+    // Whether samples of bounces 0 … N are proven to be bounded if no light is without extent (bounded_samples.h).
     virtual bool is_bounded(const SamplingSettings& settings) const = 0;
-    // Whether what a path of this quantity brings has no bound: it falls with the distance of a vertex from the camera, or with the
-    // radius in which photons are read, and grows with 1/p of a light that is chosen seldom.
+    // Whether the contribution of a path to this quantity has no bound: it falls with the distance of a vertex from the
+    // camera or with the radius in which photons are read, and grows with 1/p of a light that is seldom chosen.
     virtual bool is_boundless(std::size_t /*quantity*/) const { return false; }
     // Whether a pixel's value is a sum of events, none of which is negative.
     virtual bool has_events() const { return true; }
     virtual bool has_chains() const { return false; }
-    // Of a walk that goes on until its roulette ends it: what it costs in a furnace is known.
+    // Whether a walk goes on until its roulette ends it: its cost in a furnace is then known.
     virtual bool ends_by_roulette() const { return false; }
 
-    // Why its paths are not checked, have no balance of energy, or a pixel no history; "" where they are, and have one.
+    // Why its paths are not checked, why they have no balance of energy, and why a pixel has no history, in words; ""
+    // if they are, and have one.
     virtual std::string why_no_checkup() const { return ""; }
     virtual std::string why_no_balance() const { return ""; }
     virtual std::string why_no_history() const { return ""; }
     // False if rays end at sampled points, which may lie in the plane of their start.
     virtual bool rays_meet_surfaces() const { return true; }
-    // What to try against its fireflies; nothing if that hangs on the path.
+    // The remedies against its fireflies; nothing if they depend on the path.
     virtual std::optional<std::vector<Remedy>> remedies(const Scene&, bool /*of_rest*/) const { return std::nullopt; }
 
 protected:
-    // What is not found of lights without extent where there are mirrors, as a warning; null: nothing is to be told.
+    // A warning about light from lights without extent that is not found where there are mirrors; null if there is
+    // nothing to warn of.
     static constexpr const char* unfound_from_both_ends =
         "what is seen in a mirror of a light without extent is not found from either end and is missing";
     virtual const char* unfound_in_mirrors() const;
 };
 
-// As it is one of M, or null.
+// The method as an M, or null if it is another one.
 template <class M>
 const M* as(const std::shared_ptr<const PathMethod>& method) {
     return dynamic_cast<const M*>(method.get());

@@ -1,4 +1,4 @@
-// Samples whole pictures of a scene by one method, replicate by replicate: what each method implements.
+// Samples whole pictures of a scene by one method, replicate by replicate; each method implements this.
 #pragma once
 
 #include "operators/paths/walk/path_observer.h"
@@ -19,16 +19,17 @@ namespace neumann {
 class PictureSampler;
 class TermEstimator;
 
-// Paths of a render that can be traced again, group by group.
+// The paths of a render that can be traced again, group by group.
 class PathsToInspect {
 public:
     struct Group {
         std::uint32_t first, paths;
     };
     virtual ~PathsToInspect() = default;
-    virtual std::uint32_t groups() const = 0;  // of a replicate
+    virtual std::uint32_t groups() const = 0;  // in a replicate
     virtual Group group(std::uint32_t number) const = 0;
-    // Whether all are of replicate 0, for what its paths share takes as long to make as a picture.
+    // Whether all of them belong to replicate 0, because making the data that its paths share takes as long as a
+    // picture.
     virtual bool are_of_first_replicate() const { return false; }
     virtual void retrace(std::uint64_t replicate, const Group& group, PathObserver& observer) const = 0;
 };
@@ -39,7 +40,7 @@ public:
         : scene_(&scene), settings_(settings), layout_(settings.layout(scene.film)) {}
     virtual ~PathSampler() = default;
 
-    // What samples a pixel, where pixels share nothing. Null: a replicate is a whole picture.
+    // The estimator for a single pixel, if pixels share nothing. Null: a replicate is a whole picture.
     virtual const TermEstimator* of_pixels() const { return nullptr; }
 
     // Adds a replicate's picture, all quantities of each pixel, black where a pixel has no samples. Returns false if `watch`
@@ -47,8 +48,9 @@ public:
     virtual bool sample_picture(std::uint64_t replicate, std::vector<Rgb>& picture, SampleRanges& ranges, Tally& tally,
                                 const Watch& watch) const = 0;
 
-    // The samples of all pixels without what paths from the lights bring to pixels all over the film. Returns the rays cast for
-    // what pixels share; nothing if `watch` stopped it. std::logic_error where all pixels share all paths.
+    // Calls `each` with the samples of all pixels, without the contributions of paths from the lights to pixels all
+    // over the film. Returns the rays cast for data that pixels share; nothing if `watch` stopped it. std::logic_error
+    // if all pixels share all paths.
     virtual bool has_own_samples() const { return false; }
     virtual std::optional<std::uint64_t> own_samples(std::uint64_t replicate, const OwnSamples& each, const Watch& watch) const;
 
@@ -56,13 +58,14 @@ public:
     // path by path with all quantities, with the same bits as in sample_picture(); the plan leaves nothing out. std::logic_error
     // for a method without paths.
     virtual std::vector<Rgb> retrace(std::uint64_t replicate, std::uint32_t first, PathObserver& observer) const = 0;
-    // Where a path reads what others left (path_observer.h): traces again the group with the path of that number, which has number
-    // of_read() in the group.
+    // For methods whose paths read light that others left (path_observer.h): traces again the group that contains the
+    // path with number `path`, which has number of_read(path) in the group.
     virtual std::uint32_t of_read(std::uint32_t path) const;
     virtual void retrace_read(std::uint64_t replicate, std::uint32_t path, PathObserver& observer) const;
     virtual std::unique_ptr<const PathsToInspect> to_inspect() const;
 
-    // Of several methods together: the one that made a sample, and the sample's name there. A method alone has no parts.
+    // For several methods together: the method that made a sample, and the sample's name there. A method alone has no
+    // parts.
     struct OfPart {
         const PictureSampler& sampler;
         SampleName name;
@@ -71,8 +74,8 @@ public:
     };
     virtual std::size_t parts() const { return 0; }
     virtual OfPart part_of(const SampleName& name) const;
-    // What a sample of a part with value 1 adds to the mean of its pixel, or of that at a position on the film, times the samples
-    // of a pixel.
+    // The amount that a sample of a part with value 1 adds to the mean of its pixel, or of the pixel at a position on
+    // the film, times the samples of a pixel.
     virtual double scale(std::size_t part, std::size_t quantity, std::uint32_t pixel) const;
     virtual double scale(std::size_t part, std::size_t quantity, const Vec2& position) const;
 

@@ -25,12 +25,12 @@ public:
     bool is_prepared() const override { return true; }
     std::uint64_t rays() const override { return pilot_->rays; }
     double walks_worth(int, std::span<const double>) const override { return 16.0; }
-    // r and r/√2. Where light has edges the error is of order r, and the difference 1 − 1/√2 of it; where it is smooth, of order
-    // r², and the difference a half. The former is taken.
+    // The radii are r and r/√2. Where light has edges the error is of order r, and the difference is 1 − 1/√2 of it;
+    // where it is smooth the error is of order r², and the difference is half of it. The former is taken.
     std::optional<TwoRadii> two_radii() const override;
     bool is_bounded(const SamplingSettings&) const override { return false; }
     bool is_boundless(std::size_t quantity) const override { return quantity > 1; }
-    bool has_events() const override { return false; }  // means of many photons
+    bool has_events() const override { return false; }  // samples are means of many photons
     std::string why_no_checkup() const override {
         return "photons are shared by all pixels, and those of a pass are traced together";
     }
@@ -50,7 +50,7 @@ public:
                         const Watch& watch) const override;
     // Traces all photons of the replicate again.
     std::vector<Rgb> retrace(std::uint64_t replicate, std::uint32_t first, PathObserver& observer) const override;
-    // The paths that left photons.
+    // `path`: the number of a path that left photons.
     std::uint32_t of_read(std::uint32_t path) const override { return path % PhotonTracer::at_once; }
     void retrace_read(std::uint64_t replicate, std::uint32_t path, PathObserver& observer) const override;
 

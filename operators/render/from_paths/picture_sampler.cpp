@@ -76,7 +76,7 @@ std::vector<Share> PictureSampler::shares(std::uint64_t first, std::uint64_t cou
         for (std::uint64_t r = first; r < first + count; ++r) all.push_back({r, 1, 0, pixels()});
         return all;
     }
-    // Whole groups of pixels, so that each group is sampled as it would be without shares.
+    // Each share has whole groups of pixels, so that a group is sampled as it would be without shares.
     const std::uint32_t groups = layout_.groups(), each = std::max(groups / std::max(pieces, 1u), 1u);
     for (std::uint32_t begin = 0; begin < groups; begin += each)
         all.push_back({first, count, layout_.group(begin).begin, layout_.group(std::min(begin + each, groups) - 1).end});

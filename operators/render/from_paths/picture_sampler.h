@@ -32,32 +32,34 @@ public:
     const SampleLayout& layout() const { return layout_; }
     const PathSampler& path_sampler() const { return *paths_; }
 
-    // Samples replicates first … first + count − 1 of every pixel; count is a power of two that divides first. Adds to `tally`,
-    // which holds the earlier replicates, unless `watch` stops it: then the work is dropped. watch.progress gets the fraction of
-    // these replicates that is done. `memory` is reused for the node: fresh pages for every block would cost as much as the
-    // moments themselves.
+    // Samples replicates first … first + count − 1 of every pixel; count is a power of two that divides first. Adds to
+    // `tally`, which holds the earlier replicates, unless `watch` stops it: then the work is dropped. watch.progress
+    // gets the finished fraction of these replicates. `memory` is reused for the node: fresh pages for every block
+    // would cost as much as the moments themselves.
     std::optional<MomentsNode> run(std::uint64_t first, std::uint64_t count, Tally& tally, const Watch& watch = {},
                                    std::vector<double> memory = {}) const;
 
     // The same node in shares: of pixels, about as many as `pieces`, or of whole pictures.
     std::vector<Share> shares(std::uint64_t first, std::uint64_t count, std::uint32_t pieces) const;
-    // Samples one of them. `tally` holds earlier replicates: what it makes unnecessary is not kept. Nothing if `watch` stopped it.
+    // Samples one share. `tally` holds earlier replicates, so that samples too small for it are not kept. Returns
+    // nothing if `watch` stopped it.
     std::optional<SampledShare> sample(const Share& share, const Tally& tally, const Watch& watch = {}) const;
-    // The node again; `next` is asked for each of its shares in turn.
+    // The node, joined from shares; `next` is called for each of them in turn.
     std::optional<MomentsNode> join(std::uint64_t first, std::uint64_t count, std::uint32_t pieces, Tally& tally,
                                     const std::function<std::optional<SampledShare>(const Share&)>& next,
                                     std::vector<double> memory = {}) const;
 
 private:
     std::uint32_t pixels() const { return static_cast<std::uint32_t>(width()) * static_cast<std::uint32_t>(height()); }
-    // Whether its pixels share something.
+    // Whether a replicate is sampled as a whole picture, because its pixels share something.
     bool has_whole_pictures() const { return paths_->of_pixels() == nullptr; }
     MomentsNode empty_node(std::uint64_t first, std::uint64_t count, std::vector<double> memory) const;
-    // sample(replicate, picture, ranges, tally, watch), for each replicate in turn.
+    // Calls sample(replicate, picture, ranges, tally, watch) for each replicate in turn.
     template <class Sample>
     std::optional<MomentsNode> join_pictures(std::uint64_t first, std::uint64_t count, Tally& tally, const Watch& watch,
                                              std::vector<double> memory, const Sample& sample) const;
-    // Samples pixels of replicates; data and ranges are of these pixels. Whether it was not stopped.
+    // Samples pixels of replicates into `data` and `ranges`, which are for these pixels. Returns false if it was
+    // stopped.
     bool sample_pixels(const Share& share, std::span<double> data, std::span<SampleRange> ranges, Tally& tally,
                        const Watch& watch) const;
 

@@ -13,20 +13,21 @@ namespace neumann {
 
 namespace {
 
-constexpr std::uint64_t pilot_stream = 0x70696c6f74ull;  // another seed than the pictures'
+constexpr std::uint64_t pilot_stream = 0x70696c6f74ull;  // differs from the seed of the pictures
 constexpr std::uint64_t batch = 64, together = 8, largest_batches = 256;
-// Walks are not ended by roulette up to the last term, and in a closed room most rays are of its late bounces.
+// Numbers of rays after which a pilot ends. It needs more with most_bounces: walks are not ended by roulette up to the
+// last term, and in a closed room most rays are in late bounces.
 constexpr std::uint64_t enough_rays = 250'000, enough_rays_of_most = 1'000'000;
-// The rest beyond few bounces is small if it is such a part of the tail that is wanted.
+// The rest beyond few_bounces is small if it is at most this part of the wanted tail.
 constexpr double small_part = 0.1;
 
 std::atomic<std::uint64_t> pilots = 0;
 
 }  // namespace
 
-// Walks up to a bounce N: of the terms 0 … N, and of the rest as the last quantity.
+// The walks up to a bounce N. Their quantities are the terms 0 … N, and the rest as the last.
 struct Pilot::Walks {
-    // Of quantities over walks.
+    // The moments of each quantity over walks.
     struct Moments {
         std::vector<double> sum, square;
         explicit Moments(std::size_t quantities) : sum(quantities), square(quantities) {}
@@ -104,7 +105,7 @@ struct Pilot::Walks {
 Pilot::Pilot(const Scene& scene, const DirectLightSettings& direct, std::uint64_t seed, int wanted, double tail) {
     ++pilots;
     const DirectLightSampler direct_light(scene, direct);
-    // Whether the walks tell what is wanted.
+    // Samples walks up to this number of bounces; false if the rest beyond them is too large.
     const auto sample = [&](int bounces, std::uint64_t enough) {
         const Stopwatch watch;
         Walks all(bounces);
@@ -157,10 +158,11 @@ int Pilot::bounces_for_tail(double fraction) const {
 }
 
 double Pilot::rest_probability(int N) const {
-    // The pilot's walks have no roulette up to its last term. The render's have it beyond N, and survive about as the terms fall.
+    // The pilot's walks have no roulette up to its last term. The render's walks have it beyond N, and their number
+    // falls about as the terms do.
     const auto term = [&](std::size_t q) { return rest_[q - 1].mean - (q < rest_.size() ? rest_[q].mean : 0.0); };
     const auto first = static_cast<std::size_t>(std::min(N, bounces())) + 1, last = rays_.size() - 1;
-    // What is beyond the last term begins with as many walks as that.
+    // As many walks go on beyond the last term as reach it.
     const auto survival = [&](std::size_t q) {
         const std::size_t of = std::min(q, last - 1);
         return of >= first && term(first) > 0.0 ? std::clamp(term(of) / term(first), 0.0, 1.0) : 1.0;

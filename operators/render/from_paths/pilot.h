@@ -13,18 +13,18 @@ namespace neumann {
 
 class Pilot {
 public:
-    // The terms estimated one by one: few where the rest beyond them is small, most otherwise. And the number of bounces beyond
-    // them after which a walk is given up.
+    // The number of terms estimated one by one: few if the rest beyond them is small, and otherwise most. A walk is
+    // given up after `give_up` further bounces.
     static constexpr int few_bounces = 64, most_bounces = 256, give_up = 10'000;
 
     // By default, N is large enough that the rest is below this part of the sum.
     static constexpr double default_tail = 0.01;
 
-    // `wanted`: N, where it is given; `tail`: otherwise the part of the sum that may be beyond N.
+    // `wanted`: N, if it is given; `tail`: otherwise the part of the sum that may be beyond N.
     Pilot(const Scene& scene, const DirectLightSettings& direct, std::uint64_t seed, int wanted = 0, double tail = default_tail);
 
     int bounces() const { return static_cast<int>(term_.size()) - 2; }
-    // Mean of K^i Le over channels and film, i ≤ bounces(). Walks start uniformly on the film, whatever its filter.
+    // The mean of K^i Le over channels and film, i ≤ bounces(). Walks start uniformly on the film, whatever its filter.
     MeanWithError term(int i) const;
     // Σ_{k>i} K^k Le, likewise.
     MeanWithError rest(int i) const;
@@ -40,9 +40,9 @@ public:
     // The probability of going on into the rest beyond N, or beyond bounces() if that is less, with which the rest takes no more
     // rays than the terms.
     double rest_probability(int N) const;
-    // Rays of a walk for each term 0 … bounces(), and for the rest beyond.
+    // The rays of a walk for each term 0 … bounces(), and for the rest beyond.
     std::span<const double> rays() const { return rays_; }
-    // On all threads, of a ray and what is done at its end, and of a walk up to bounce N.
+    // The time, using all threads, of a ray with the work at its end, and of a walk up to bounce N.
     double seconds_per_ray() const { return seconds_per_ray_; }
     double seconds_per_walk(int N) const;
 
@@ -57,7 +57,7 @@ private:
     double seconds_per_ray_ = 0.0;
 };
 
-// Number of pilots that this program has run so far.
+// The number of pilots that this program has run so far.
 std::uint64_t pilots_run();
 
 }  // namespace neumann

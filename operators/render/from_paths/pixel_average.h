@@ -1,4 +1,4 @@
-// The mean of one pixel's samples in a replicate.
+// Averages the samples of one pixel in a replicate.
 #pragma once
 
 #include "operators/render/from_paths/tally.h"
@@ -18,8 +18,9 @@ struct PixelAverage {
     std::vector<Rgb> mean, low, high;
 };
 
-// `samples`: sample by sample, all quantities of each. Writes the means into `average.mean` and adds the samples to the pixel's
-// ranges and to the tally; samples that are not finite are recorded there and left out. `colors`: as SamplingSettings::colors.
+// Writes the means of the samples into `average.mean` and adds the samples to the pixel's ranges and to the tally;
+// samples that are not finite are recorded there and left out. `samples`: sample by sample, all quantities of each.
+// `colors`: as SamplingSettings::colors.
 void average(std::span<Rgb> samples, std::size_t size, std::uint32_t pixel, std::uint64_t replicate,
              const std::optional<glm::dmat3>& colors, PixelAverage& average, std::span<SampleRange> ranges, Tally& tally);
 

@@ -1,4 +1,5 @@
-// The pixels of a replicate that is a whole picture, where each pixel has samples of its own: group by group, on all threads.
+// Samples a replicate that is a whole picture, in which each pixel has samples of its own: group by group, on all
+// threads.
 #pragma once
 
 #include "operators/paths/walk/path_group.h"
@@ -15,8 +16,9 @@
 
 namespace neumann {
 
-// Calls trace(group, work), which samples these pixels of the replicate into work.group.samples. A Workspace is made for a number
-// of quantities and has a group, an average and a tally. As PathSampler::sample_picture().
+// Calls trace(group, work), which samples these pixels of the replicate into work.group.samples. A Workspace is
+// constructed from the number of quantities and has a group, an average and a tally. Otherwise like
+// PathSampler::sample_picture().
 template <class Workspace, class Trace>
 bool sample_groups(const SamplingSettings& settings, const SampleLayout& layout, std::uint64_t replicate, std::vector<Rgb>& picture,
                    SampleRanges& ranges, Tally& tally, const Watch& watch, const Trace& trace) {

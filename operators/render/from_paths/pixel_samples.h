@@ -11,7 +11,7 @@ namespace neumann {
 
 struct PixelSamples {
     std::vector<Pixel> pixels;
-    std::vector<Sampler> samplers;  // of all samples, pixel by pixel
+    std::vector<Sampler> samplers;  // for all samples, pixel by pixel
 
     void begin(const Film& film, const SamplingSettings& settings, const SampleLayout& layout, const PixelGroup& group) {
         pixels.clear();

@@ -17,19 +17,19 @@ namespace neumann {
 
 namespace {
 
-// Seconds. An interrupted render that has run for longer stops at once; otherwise it goes on to a number of samples that can be
-// repeated, and to the end of its first replicate.
+// In seconds. An interrupted render that has run for longer stops at once; otherwise it goes on to a number of samples
+// that can be repeated, and to the end of its first replicate.
 constexpr double patience = 3.0;
-// Beyond a time limit a render is cut off. Without its first replicate there would be no picture: that one is given up late, and
-// that of the walk, the plainest of methods, never.
+// The seconds after which a render with a time limit is cut off. Without its first replicate there would be no picture,
+// so that one is given up late, and that of the walk, the plainest of methods, never.
 double cut_off(double seconds, bool is_first) { return is_first ? 4.0 * seconds + 10.0 : 1.1 * seconds + 0.5; }
 
-// What is there before the first part.
+// The series before the first part.
 RenderedSeries beginning(const PictureSampler& sampler, std::optional<RenderedSeries>& from) {
     const std::size_t Q = sampler.quantities();
     if (!from) return {SeriesMoments(sampler.width(), sampler.height(), Q, sampler.settings().pictures()), Tally(Q), {}};
     RenderedSeries series = std::move(*from);
-    // Where an earlier part ended is no number of samples at which an uncut render looks at its errors.
+    // An uncut render would not look at its errors where an earlier part ended, unless that is a power of two.
     std::erase_if(series.convergence, [](const Checkpoint& c) { return !std::has_single_bit(c.samples); });
     return series;
 }
@@ -91,13 +91,13 @@ RenderedSeries render_series(const Scene& scene, const PictureSampler::Settings&
         watch.progress(progress);
     };
 
-    // Whether --spp with this number of samples gives the same replicate size, or one that goes on from smaller replicates has as
-    // many as that.
+    // Whether --spp with this number of samples gives at least this replicate size; a render that continues one with
+    // smaller replicates may have more of them.
     const auto repeatable = [&](std::uint64_t done) { return replicate_size(done * size) >= size; };
     const bool may_outgrow = !goal.samples && series.samples == 0;
     const auto outgrown = [&](std::uint64_t done) { return may_outgrow && replicate_size((done + 1) * size) > size; };
-    // The size for all the time, at the speed of the last block, if more is left than has gone. What is done is lost then, so that
-    // this is asked after each block.
+    // The replicate size for the whole time, at the speed of the last block, if more time is left than has gone. Larger
+    // replicates start from the beginning, so this is asked after each block, to lose little.
     double samples_a_second = 0.0;
     const auto larger_size = [&]() -> std::optional<std::uint32_t> {
         constexpr double caution = 0.8;

@@ -1,5 +1,5 @@
-// How many samples each pixel has in a replicate, and how the paths of a replicate are numbered: pixel by pixel. Usually all pixels
-// have the same number; an allocation (allocation.h) gives some 2^k times as many.
+// The number of samples of each pixel in a replicate, and the numbers of the paths of a replicate: pixel by pixel.
+// Usually all pixels have the same number; an allocation (allocation.h) gives some 2^k times as many.
 #pragma once
 
 #include "core/sampling/sobol_points.h"
@@ -14,11 +14,11 @@
 namespace neumann {
 
 struct Allocation {
-    static constexpr std::int8_t none = -128;  // of a pixel without samples
+    static constexpr std::int8_t none = -128;  // exponent of a pixel without samples
     std::vector<std::int8_t> exponents;        // k of all pixels of the crop, row by row
-    std::uint64_t rays = 0;                    // cast to find them
+    std::uint64_t rays = 0;                    // cast to find the exponents
 
-    // `size` · 2^k, at least 1, or none.
+    // `size` · 2^k, at least 1; 0 for none.
     static std::uint32_t size_of(std::uint32_t size, std::int8_t exponent) {
         if (exponent == none) return 0;
         return exponent >= 0 ? size << exponent : std::max(size >> -exponent, 1u);
@@ -26,7 +26,7 @@ struct Allocation {
     static double times(std::int8_t exponent) { return exponent == none ? 0.0 : std::ldexp(1.0, exponent); }
 };
 
-// Consecutive pixels with as many samples each, whose paths advance together.
+// Consecutive pixels with equally many samples, whose paths advance together.
 struct PixelGroup {
     std::uint32_t begin, end, size;
     std::uint32_t paths() const { return (end - begin) * size; }
@@ -40,39 +40,39 @@ struct PlaceInGroup {
 
 class SampleLayout {
 public:
-    // `size`: samples of a pixel; a power of two. `allocation`: null if all pixels have as many. `together`: the pixels of a group
-    // at least, if there is no allocation.
+    // `size`: samples of a pixel; a power of two. `allocation`: null if all pixels have equally many samples.
+    // `together`: the least number of pixels of a group, if there is no allocation.
     SampleLayout(std::uint32_t pixels, std::uint32_t size, std::shared_ptr<const Allocation> allocation = {},
                  std::uint32_t together = 1);
 
     std::uint32_t size(std::uint32_t pixel) const;
     std::vector<std::uint32_t> sizes() const;  // of all pixels, if they differ
     std::uint32_t pixels() const { return pixels_; }
-    // In a replicate.
+    // The number of paths in a replicate.
     std::uint32_t paths() const;
     std::uint32_t first_path(std::uint32_t pixel) const;
     std::uint32_t pixel_of(std::uint32_t path) const;
 
-    // Of all pixels that have samples.
+    // The number of groups; together they have all pixels that have samples.
     std::uint32_t groups() const;
     PixelGroup group(std::uint32_t number) const;
-    // Of which this pixel, which has samples, is one.
+    // The number of the group that contains this pixel, which must have samples.
     std::uint32_t group_of(std::uint32_t pixel) const;
-    // Of which this path is one.
+    // The group that contains this path.
     PixelGroup group_with(std::uint32_t path) const { return group(group_of(pixel_of(path))); }
 
     SampleName name(std::uint64_t replicate, std::uint32_t path) const;
     PlaceInGroup place(const SampleName& name) const;
 
-    // Sobol' points for a pixel with so many samples.
+    // The Sobol' points for a pixel with this many samples.
     const SobolPoints& net(std::uint32_t size) const;
 
 private:
     std::uint32_t pixels_, size_, pixels_of_group_;
     std::shared_ptr<const Allocation> allocation_;
-    std::vector<std::uint32_t> first_path_;  // of each pixel, and their number
+    std::vector<std::uint32_t> first_path_;  // for each pixel, and last the number of paths
     std::vector<PixelGroup> groups_;
-    std::vector<SobolPoints> nets_;  // of 1, 2, 4, … points where there is an allocation; otherwise of `size`
+    std::vector<SobolPoints> nets_;  // for 1, 2, 4, … points if there is an allocation; otherwise for `size`
 };
 
 }  // namespace neumann

@@ -1,4 +1,4 @@
-// Settings for sampling the terms by paths.
+// The settings for sampling the terms by paths.
 #pragma once
 
 #include "core/scene/scene.h"
@@ -12,7 +12,7 @@
 
 namespace neumann {
 
-// The walk, with what walks of their own may do (walk_paths.h).
+// The walk as a method, with the extensions that only walks have (walk_paths.h).
 std::shared_ptr<const PathMethod> plain_walks();
 
 struct SamplingSettings {
@@ -21,19 +21,20 @@ struct SamplingSettings {
     SamplerKind sampler = SamplerKind::sobol;
     std::uint64_t seed = 0;
     std::uint32_t replicate_size = 8;  // samples per pixel; a power of two
-    // What pixels share is made as for a film of so many pixels; 0: as for this one.
+    // Data that pixels share are made as for a film of this many pixels; 0: as for this film.
     std::uint32_t pixels_of_shared = 0;
-    // Where pixels have different numbers of samples.
+    // The numbers of samples of the pixels, if they differ.
     std::shared_ptr<const Allocation> allocation = {};
-    // If given, pictures and their errors are of this matrix times the samples' RGB.
+    // If given, the pictures and their errors are this matrix times the RGB of the samples.
     std::optional<glm::dmat3> colors = {};
 
-    // The terms 0 … N and the rest; and all quantities of a sample: with two radii, the differences of terms between these follow.
+    // pictures(): the terms 0 … N and the rest. quantities(): all quantities of a sample; with two radii, the
+    // differences of terms between these follow.
     std::size_t pictures() const { return method->pictures(walk.bounces); }
     std::size_t quantities() const { return pictures() * (method->two_radii() ? 2 : 1); }
-    // Whether points on lights share their weight with directions, so that none brings the more the nearer it is.
+    // Whether points on lights share their weight with directions, so that none contributes more the nearer it is.
     bool weighs_directions() const { return walk.direct.direct == DirectLight::bsdf || walk.direct.direct == DirectLight::mis; }
-    // Of the crop's pixels in a replicate.
+    // The layout of the crop's pixels in a replicate.
     SampleLayout layout(const Film& film) const {
         return {static_cast<std::uint32_t>(film.crop_width) * static_cast<std::uint32_t>(film.crop_height), replicate_size,
                 allocation, method->sharing_pixels()};

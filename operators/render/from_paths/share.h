@@ -12,7 +12,7 @@
 
 namespace neumann {
 
-// Pixels begin … end − 1 of all replicates of a node; where pixels share samples, all pixels of one replicate.
+// Pixels begin … end − 1 of all replicates of a node; if pixels share samples, all pixels of one replicate.
 struct Share {
     std::uint64_t first = 0, count = 1;  // replicates
     std::uint32_t begin = 0, end = 0;
@@ -20,23 +20,24 @@ struct Share {
 };
 
 struct SampledShare {
-    // The moments of the pixels, as in a MomentsNode; of a whole picture its pixels, RGB of each quantity.
+    // The moments of the pixels, as in a MomentsNode; for a whole picture its pixels, RGB of each quantity.
     std::vector<double> data;
     SampleRanges ranges;
     Tally tally;
 };
 
-// Other processes that sample shares of one render, each a few at a time. What an exception tells of one of them ends the render.
+// Other processes that sample shares of one render, each a few at a time. Exceptions report failures of helpers and end
+// the render.
 class Helpers {
 public:
     virtual ~Helpers() = default;
-    // How many there are.
+    // The number of helpers.
     virtual int count() const = 0;
-    // Gives the share to one that has room for it, if there is one; `tally` is that of what was sampled before.
+    // Gives the share to a helper that has room for it, if there is one; `tally` is that of the earlier replicates.
     virtual bool give(const Share& share, const Tally& tally) = 0;
-    // What one of them has done since.
+    // A share that a helper has finished, if there is one.
     virtual std::optional<std::pair<Share, SampledShare>> take() = 0;
-    // Nobody waits for what they are sampling now.
+    // Drops the shares that are being sampled; nobody waits for them.
     virtual void drop() = 0;
 };
 

@@ -1,4 +1,5 @@
-// Shares that this process samples, one after the other, in a thread of its own: another one can read messages meanwhile.
+// Shares that this process samples one after the other in a thread of its own, so that another thread can read messages
+// meanwhile.
 #pragma once
 
 #include "operators/render/from_paths/picture_sampler.h"
@@ -17,18 +18,18 @@ namespace neumann {
 
 class ShareQueue {
 public:
-    // Keeps a reference.
+    // Keeps a reference to the sampler.
     explicit ShareQueue(const PictureSampler& sampler) : sampler_(sampler), thread_([this] { run(); }) {}
     ~ShareQueue();
 
     void add(const Share& share, const Tally& tally);
-    // Those that are not sampled yet.
+    // The number of shares that are not sampled yet.
     std::size_t waiting() const;
-    // One that is sampled. Throws what the sampling threw.
+    // A share that is sampled, if there is one. Throws what the sampling threw.
     std::optional<std::pair<Share, SampledShare>> take();
-    // Returns when one is there to be taken, or at the end of the time.
+    // Returns when a share can be taken, or after this time.
     void wait_for(std::chrono::microseconds time);
-    // Forgets all of them, and what is under way.
+    // Forgets all shares, including the one that is being sampled.
     void drop();
 
 private:

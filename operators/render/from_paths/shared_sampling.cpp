@@ -8,11 +8,11 @@ namespace neumann {
 
 namespace {
 
-// Shares of a node for each process: small enough that nobody waits long for the last one.
+// The number of shares of a node per process: they are small enough that nobody waits long for the last one.
 constexpr std::uint32_t pieces_each = 8;
-// One that is sampled, and one for when that is done.
+// The number of shares queued in this process: the one being sampled and the next.
 constexpr std::size_t shares_here = 2;
-// How often messages are looked for. It takes time from the thread that samples.
+// How often messages are looked for, which takes time from the thread that samples.
 constexpr std::chrono::milliseconds moment(2);
 
 }  // namespace
@@ -56,7 +56,7 @@ void SharedSampling::plan(std::uint64_t first, std::uint64_t count) {
     std::ranges::copy(sampler_.shares(first, count, pieces_), std::back_inserter(to_do_));
 }
 
-// What is planned is held in memory sooner or later, until it is joined.
+// Plans nodes only up to a limit, because planned shares stay in memory until they are joined.
 void SharedSampling::plan_ahead() {
     const std::size_t most = 2 * std::max(shares_of_node_, static_cast<std::size_t>(helpers_.count()) + 1);
     while (to_do_.size() + under_way_ + done_.size() < most) {

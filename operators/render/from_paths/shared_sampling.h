@@ -1,5 +1,5 @@
-// A render's replicates, sampled by this process together with others. Who samples what depends on who has time; what comes out
-// does not.
+// The replicates of a render, sampled by this process together with others. Which process samples a share depends on
+// who is free; the result does not.
 #pragma once
 
 #include "operators/render/from_paths/share_queue.h"
@@ -14,10 +14,10 @@ namespace neumann {
 
 class SharedSampling {
 public:
-    // The number of replicates in the node that begins with replicate `first`; 0 if none is known to be asked for.
+    // The number of replicates in the node that begins with replicate `first`; 0 if no such node is known to be needed.
     using NodeAt = std::function<std::uint64_t(std::uint64_t first)>;
 
-    // Keeps references.
+    // Keeps references to sampler and helpers.
     SharedSampling(const PictureSampler& sampler, Helpers& helpers, NodeAt node_at);
     ~SharedSampling() { drop(); }
 
@@ -37,8 +37,9 @@ private:
     NodeAt node_at_;
     std::uint32_t pieces_;
     ShareQueue here_;
-    std::deque<std::pair<std::uint64_t, std::uint64_t>> nodes_;  // planned: first replicate and number
-    std::deque<Share> to_do_;                                    // their shares, in order
+    // planned nodes: first replicate and number of replicates
+    std::deque<std::pair<std::uint64_t, std::uint64_t>> nodes_;
+    std::deque<Share> to_do_;  // the shares of these nodes, in order
     std::size_t under_way_ = 0;
     std::map<Share, SampledShare> done_;
     std::size_t shares_of_node_ = 1;

@@ -1,5 +1,5 @@
-// A group of paths from the lights (and, for bidirectional paths, of subpaths from the camera) that advance together: trace_group()
-// of SplatSampler.
+// A group of paths from the lights (and, for bidirectional paths, of subpaths from the camera) that advance together:
+// trace_group() of SplatSampler.
 #pragma once
 
 #include "core/sampling/sampler.h"
@@ -10,12 +10,12 @@
 
 namespace neumann {
 
-// Number of paths from the lights that are stratified together.
+// The number of paths from the lights that are stratified together.
 constexpr std::uint32_t light_net = 4096;
 // The pixel number for the random numbers of paths from the lights.
 constexpr std::uint32_t of_lights = 0xffffffffu;
 
-// Work space of a thread.
+// Work space of one thread.
 struct SplatSampler::Workspace {
     explicit Workspace(std::size_t quantities) : tally(quantities) {}
 

@@ -11,7 +11,7 @@ namespace neumann {
 
 namespace {
 
-// Number of groups in one Chunk of work.
+// The number of groups in one Chunk of work.
 constexpr std::uint32_t groups_at_once = 8;
 
 }  // namespace

@@ -1,6 +1,6 @@
-// Light tracing, and bidirectional path tracing: paths from the lights may contribute to any pixel, so a replicate is a whole
-// picture. A replicate has as many paths as camera samples, and each is added to the pixels whose filter covers its position on the
-// film.
+// Light tracing and bidirectional path tracing. Paths from the lights may contribute to any pixel, so a replicate is a
+// whole picture. A replicate has as many paths as camera samples, and each is added to the pixels whose filter covers
+// its position on the film.
 #pragma once
 
 #include "core/sampling/sampler.h"
@@ -33,10 +33,10 @@ private:
 // Subpaths from both ends, joined at every pair of vertices.
 class BidirectionalPaths : public PathMethod {
 public:
-    // What the quantities of a sample are.
+    // The meaning of the quantities of a sample.
     enum class Quantities {
         terms,
-        ways  // of bounce N, each way (s, t) to make it: N + 2 weighted ones, and then N + 2 unweighted ones
+        ways  // each way (s, t) to make bounce N: N + 2 weighted ones, and then N + 2 unweighted ones
     };
     explicit BidirectionalPaths(Quantities quantities = Quantities::terms) : quantities_(quantities) {}
 
@@ -47,7 +47,7 @@ public:
     double walks_worth(int, std::span<const double>) const override { return 5.0; }
     bool splats() const override { return true; }
     bool starts_at_lights() const override { return true; }
-    // Half of the ways have no weight.
+    // The unweighted half of the ways is not bounded.
     bool is_bounded(const SamplingSettings&) const override { return quantities_ == Quantities::terms; }
     std::string why_no_history() const override { return "the paths of all pixels bring light to it"; }
     std::optional<std::vector<Remedy>> remedies(const Scene&, bool of_rest) const override {
@@ -62,7 +62,7 @@ private:
 
 class SplatSampler : public PathSampler {
 public:
-    // `joined`: what subpaths from both ends make; none: paths are from the lights alone.
+    // `joined`: the quantities that subpaths from both ends make; none: all paths start at the lights.
     SplatSampler(const Scene& scene, const SamplingSettings& settings, std::optional<BidirectionalPaths::Quantities> joined);
 
     bool sample_picture(std::uint64_t replicate, std::vector<Rgb>& picture, SampleRanges& ranges, Tally& tally,
@@ -80,7 +80,7 @@ private:
     template <class OnFound, class OnSplat, class Observer = NoObserver>
     void trace_group(std::uint64_t replicate, std::uint32_t first, std::uint32_t samples, const OnFound& found,
                      const OnSplat& splatted, Workspace& work, const Observer& observer = {}) const;
-    // Into work.group.samples, without the filters' weights, and into the chunk.
+    // Traces paths into work.group.samples, without the filters' weights, and into the chunk.
     void sample_paths(std::uint64_t replicate, std::uint32_t first, std::uint32_t samples, Chunk& chunk, Workspace& work) const;
     void sample_group(std::uint64_t replicate, std::uint32_t first, std::uint32_t samples, Chunk& chunk, std::span<Rgb> own,
                       SampleRanges& ranges, Workspace& work) const;

@@ -1,4 +1,4 @@
-// Counters beside the pictures.
+// Counters that a render keeps beside its pictures.
 #pragma once
 
 #include "operators/paths/metropolis/chain_statistics.h"
@@ -9,7 +9,8 @@
 
 namespace neumann {
 
-// A sample that is not finite: it is left out of the pictures, counted, and its name is kept so that it can be traced again.
+// A sample that is not finite. It is left out of the pictures and counted, and its name is kept so that it can be
+// traced again.
 struct NonFiniteSample {
     int bounce;  // N + 1 stands for the rest
     SamplePlace place;
@@ -26,14 +27,14 @@ struct Tally {
 
     std::vector<std::uint64_t> rays;
     std::vector<LargestSamples> largest;  // by the samples' largest channel
-    std::uint64_t shared_rays = 0;        // of `rays`, those for the points that all pixels share
+    std::uint64_t shared_rays = 0;        // the part of `rays` for points that all pixels share
     std::uint64_t given_up = 0;
     std::vector<std::uint64_t> non_finite_count;
     std::vector<NonFiniteSample> non_finite;  // the first ones in order of bounce, pixel and sample
-    std::vector<ChainStatistics> chains;      // of bounces 0 … N if there are chains
+    std::vector<ChainStatistics> chains;      // for bounces 0 … N if there are chains
 };
 
-// An empty one that will be merged into `tally`, and keeps no samples that are too small for it.
+// An empty tally that will be merged into `tally` and keeps no samples that are too small for it.
 Tally without_smaller_samples(const Tally& tally);
 
 }  // namespace neumann

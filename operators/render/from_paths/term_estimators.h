@@ -1,4 +1,5 @@
-// Estimators of all terms along camera rays, and the sampler of methods that need nothing else, for their pixels share nothing.
+// Estimators of all terms along camera rays, and the sampler of methods whose pixels share nothing and which need
+// nothing else.
 #pragma once
 
 #include "operators/paths/walk/direct_light.h"
@@ -18,7 +19,8 @@ public:
     // Adds the terms of each ray to the samples in `result`.
     virtual void operator()(std::span<const CameraRay> rays, std::span<Sampler> samplers, Walkers& walkers,
                             TermSamples& result) const = 0;
-    // With an observer: leaves nothing out, so it also reports rays whose results were known without casting them (retrace.cpp).
+    // The same for an observer. Nothing is left out, so it also reports rays whose results were known without casting
+    // them (retrace.cpp).
     virtual void trace(PathObserver& observer, std::span<const CameraRay> rays, std::span<Sampler> samplers, Walkers& walkers,
                        TermSamples& result) const = 0;
 };
@@ -38,7 +40,7 @@ public:
                TermSamples& result) const override;
 
 private:
-    // If BSDF sampling alone is enough (LeftOut::questions), the lights are not sampled.
+    // The lights are not sampled if BSDF sampling alone is enough (LeftOut::questions).
     static DirectLightSettings asked(const WalkSettings& settings) {
         DirectLightSettings direct = settings.direct;
         if (settings.left_out.questions && direct.direct == DirectLight::mis) direct.direct = DirectLight::bsdf;

@@ -1,4 +1,4 @@
-// Walks that are trees, and walks that use each other's tails.
+// Estimators by walks that are trees, and by walks that use each other's tails.
 #pragma once
 
 #include "operators/paths/corrected/diffuse_sides.h"
@@ -27,7 +27,7 @@ private:
 // Walks that use each other's tails. Their pixels are not independent.
 class ReusingEstimator : public TermEstimator {
 public:
-    // `size`: samples of a pixel; `sharing`: pixels in a row.
+    // `size`: samples of a pixel; `sharing`: number of consecutive pixels that use each other's tails.
     ReusingEstimator(const Scene& scene, const WalkSettings& settings, std::size_t size, std::size_t sharing)
         : scene_(&scene),
           settings_(settings),

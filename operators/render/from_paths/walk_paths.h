@@ -11,10 +11,10 @@ public:
     WalkPaths() = default;
     // Walks split and end by these numbers (tree_walk.h).
     explicit WalkPaths(std::shared_ptr<const TreeRatios> tree) : tree_(std::move(tree)) {}
-    // So many pixels in a row use each other's tails (reusing_walk.h).
+    // This many consecutive pixels use each other's tails (reusing_walk.h).
     explicit WalkPaths(std::uint32_t sharing_pixels) : sharing_pixels_(sharing_pixels) {}
 
-    // Null if walks are no trees.
+    // Null if walks are not trees.
     const TreeRatios* tree() const { return tree_.get(); }
 
     std::shared_ptr<const PathSampler> sampler(const Scene& scene, const SamplingSettings& settings) const override;

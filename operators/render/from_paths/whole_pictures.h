@@ -1,5 +1,5 @@
-// Moments of replicates that are whole pictures, because their pixels share samples. The means over the picture follow as one more
-// pixel, from whose spread the errors of means are taken.
+// Moments of replicates that are whole pictures, because their pixels share samples. The means over the picture are
+// appended as one more pixel, whose spread gives the errors of means.
 #pragma once
 
 #include "operators/statistics/series_moments.h"
@@ -11,11 +11,11 @@
 
 namespace neumann {
 
-// Adds all quantities of each pixel of a replicate to `picture`, which is black. Returns false if `watch` stopped it: the work is
-// dropped.
+// Adds all quantities of each pixel of a replicate to `picture`, which is black. Returns false if `watch` stopped it:
+// the work is dropped.
 using SamplePicture = std::function<bool(std::uint64_t replicate, std::vector<Rgb>& picture, const Watch& watch)>;
 
-// Replicates first … first + count − 1; see PictureSampler::run(). The node has no ranges.
+// The node of replicates first … first + count − 1, without ranges; see PictureSampler::run().
 std::optional<MomentsNode> run_whole_pictures(std::uint64_t first, std::uint64_t count, std::size_t pixels, std::size_t quantities,
                                               const Watch& watch, std::vector<double> memory, const SamplePicture& sample);
 

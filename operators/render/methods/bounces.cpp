@@ -11,7 +11,7 @@ namespace neumann {
 
 namespace {
 
-// The strip of doubling sums shows sums up to bounce 16.
+// The least number is 16 because the strip of doubling sums shows sums up to bounce 16.
 constexpr int default_least_bounces = 16, default_most_bounces = 64;
 
 int bounces_for(double tail, const Pilot& pilot) {

@@ -1,4 +1,4 @@
-// The default number of bounces N with a picture of their own: enough that the rest is small.
+// The default number of bounces N with a picture of their own: large enough that the rest is small.
 #pragma once
 
 #include "operators/render/from_paths/pilot.h"

@@ -9,14 +9,14 @@ namespace neumann {
 
 struct Candidate {
     Method method;
-    double price;  // the time of a ray in that of the walk's, measured on the scenes in scenes/
+    double price;  // the time of a ray relative to a ray of the walk, measured on the scenes in scenes/
 };
 
-// Those that make the same paths in this scene, all that can be made, without a bias. The first is the plainest.
+// The unbiased methods that make all paths in this scene that can be made. The first is the plainest.
 std::vector<Candidate> candidates(const method::PathOptions& options, const Scene& scene);
-// Those that may be mixed: also those whose pixels share all paths.
+// The methods that may be mixed: the candidates, and those whose pixels share all paths.
 std::vector<Candidate> mixture_candidates(const method::PathOptions& options, const Scene& scene);
-// Those with a bias, which they state. Some scenes they refuse.
+// The methods with a bias, which they state. They refuse some scenes.
 std::vector<Candidate> biased_candidates();
 
 }  // namespace neumann

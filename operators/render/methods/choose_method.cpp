@@ -21,34 +21,34 @@ namespace neumann {
 
 namespace {
 
-constexpr std::uint64_t trial_stream = 0x747269616cull;  // another seed than the pictures'
+constexpr std::uint64_t trial_stream = 0x747269616cull;  // differs from the seed of the pictures
 constexpr std::uint64_t second_stream = 0x616761696eull;
-constexpr int trial_width = 48, least_trial_width = 16, trial_bounces = 6;  // at most
+constexpr int trial_width = 48, least_trial_width = 16, trial_bounces = 6;  // upper limits
 constexpr std::uint64_t first_trial_samples = 64, fewest_trial_samples = 16;
 constexpr std::uint32_t trial_replicates = 4;
-// Where no method knows its terms, the pilot has so many times as many samples, again and again, up to this part of the rays that
-// the goal affords.
+// If no method knows its terms, the pilot is repeated with `longer` times as many samples, up to this part of the rays
+// that the goal affords.
 constexpr std::uint64_t longer = 4;
 constexpr double part_of_render = 0.05;
-// Of the seconds, what a method may make ready for its pilot: it is lost where another is taken.
+// The part of the seconds that a method's preparation for its pilot may take; it is lost if another method is taken.
 constexpr double part_of_preparation = 1.0 / 12.0;
-// Pilots that are foretold to take up so much of that part of the seconds have room to take longer.
+// Pilots that are foretold to take this part of their seconds have room to take longer.
 constexpr double caution = 0.7;
 
-// Part of the work of the methods before it that a method may take to replace them: the pilot is no more exact than that.
+// A method replaces those before it if it takes at most this part of their work: the pilot is no more exact than that.
 constexpr double clearly_better = 0.8;
-// Samples a pixel from which it pays to distribute them by a pilot.
+// From this number of samples a pixel on it pays to distribute them by a pilot.
 constexpr double fewest_to_distribute = 32.0;
 // The largest Σ_i E|error|² / |K^i Le|² of a pilot that is believed.
 constexpr double largest_known_error = 1.0;
-// Guided walks take at least about so much of the walk's work, and their tables are half of what pilots cost. So they have a pilot
-// where no other method takes less, and where these rays and those of the others' pilots are a small part of the render. (Of the
-// scenes in scenes/, 0.49 where they gain most; apps/manual/measurements.md.)
+// Guided walks take at least about this part of the walk's work, and their tables are half of the cost of pilots. So
+// they have a pilot only if no other method takes less work, and if these rays and those of the other pilots are a
+// small part of the render. (Among the scenes in scenes/ the smallest part is 0.49; apps/manual/measurements.md.)
 constexpr double work_of_guided = 0.4, rays_of_tables = 4.5e6;
-// Rays for the shared points of `corrected` in a pilot, however small its film is.
+// The rays for the shared points of `corrected` in a pilot, however small its film is.
 constexpr double rays_of_points = 130'000.0;
 
-// Of a pilot.
+// The size of a pilot.
 struct TrialSize {
     int width = trial_width;
     std::uint64_t samples = first_trial_samples;
@@ -65,7 +65,8 @@ Goal goal_of_trial(const Goal& goal, int bounces, const TrialSize& size) {
     return trial;
 }
 
-// Where no method knows its terms after the pilot, their errors are made by rare paths, which the pilot may or may not have met.
+// The method for scenes in which no method knows its terms after the pilot: their errors are made by rare paths, which
+// the pilot may or may not have met. The kind of lights decides.
 MethodChoice by_the_lights(const method::Auto& open, const Scene& scene) {
     if (scene.emitters.has_environment() || scene.hide_emitters) {
         if (DiffuseSides(scene).empty())
@@ -90,7 +91,8 @@ MethodTrial described(const MethodPilot& trial, double error) {
     return {name_of(trial.candidate.method), trial.rays / trial.samples, std::sqrt(error)};
 }
 
-// Takes a method with a bias, if its error after the work of `choice` is clearly smaller. `work`: for a squared error of 1.
+// Takes a method with a bias if its error after the work of `choice` is clearly smaller. `work`: the work for a squared
+// error of 1.
 void allow_bias(MethodChoice& choice, double work, const std::vector<MethodPilot>& known, const Scene& small, const Goal& goal,
                 double affordable, const Goal& of_trial, Prepared& prepared, const Watch& watch) {
     if (!(work > 0.0)) return;
@@ -103,8 +105,8 @@ void allow_bias(MethodChoice& choice, double work, const std::vector<MethodPilot
     for (const MethodPilot& trial : trials) {
         const double of_pilot = error_with_bias(trial, known);
         choice.trials.push_back(described(trial, of_pilot));
-        // Without a number of samples they refine patches, rays and samples together, and their errors fall about as 1/√rays; with
-        // one they stay as they are.
+        // Without a number of samples fields refine patches, rays and samples together, and their errors fall about as
+        // 1/√rays; with one they stay as they are.
         const double expected = goal.samples ? of_pilot : of_pilot * trial.rays * trial.candidate.price / rays;
         if (expected >= least) continue;
         least = expected;
@@ -114,7 +116,8 @@ void allow_bias(MethodChoice& choice, double work, const std::vector<MethodPilot
     }
 }
 
-// What trials promise: Σ_i E|error|² / |K^i Le|², and the work for an error of 1, of each; and the method that is taken.
+// The promises of the trials: Σ_i E|error|² / |K^i Le|² and the work for an error of 1 of each, and the index of the
+// best.
 struct Promise {
     std::vector<double> errors, works;
     std::size_t best = 0;
@@ -130,7 +133,7 @@ Promise promise_of(const std::vector<MethodPilot>& trials) {
     return p;
 }
 
-// What a time limit leaves to pilots and to the pictures.
+// Divides the time of a render with a time limit among pilots and pictures.
 class TimeLimit {
 public:
     // `bounces`: of the pilots.
@@ -138,20 +141,22 @@ public:
         : scene_(scene), pilot_(pilot), preparations_(scene, pilot), seconds_(seconds), bounces_(bounces) {}
 
     double of_pilots() const { return part_of_render * seconds_; }
-    // How many samples a pixel there is time for, up to bounce N by the walk, or of so many rays of this price.
+    // The samples a pixel that there is time for: up to bounce N by the walk, or with this number of rays of this price
+    // each.
     double samples_of_walk(int N) const { return seconds_ / (pixels_of(scene_.film) * pilot_.seconds_per_walk(N)); }
     double samples(double rays, double price) const {
         return seconds_ / (pixels_of(scene_.film) * rays * price * pilot_.seconds_per_ray());
     }
 
-    // With what the methods that are able prepare, which may be foretold wrongly by a half.
+    // The seconds of all pilots and of the preparations of these methods, which may be foretold wrongly by a half.
     double of_all(const std::vector<Candidate>& able) const {
         double seconds = of_pilots();
         for (const Candidate& candidate : able) seconds += 1.5 * preparations_.of(candidate.method).seconds;
         return seconds;
     }
 
-    // Makes what the methods prepare smaller if it takes too long, and removes those that still do; says which, and why.
+    // Makes preparations that take too long smaller, and removes the methods whose preparations still do. Returns
+    // which, and why.
     std::string leave_out(std::vector<Candidate>& able) const {
         std::string said;
         std::vector<Candidate> fit;
@@ -199,16 +204,16 @@ private:
     int bounces_;
 };
 
-// The pilots of the methods that are able, and what they promise.
+// The pilots of the able methods, and their promises.
 struct Trials {
-    Goal goal;  // of each pilot
+    Goal goal;  // the goal of each pilot
     std::vector<MethodPilot> pilots;
     Promise promise;
 
     bool is_known() const { return promise.errors[promise.best] <= largest_known_error; }
 };
 
-// If `watch` stops them, of the methods that have had one; nothing if that is none but the walk.
+// Runs the pilots. If `watch` stops them, returns those of the methods that have had one; nothing if only the walk has.
 std::optional<Trials> try_methods(std::vector<Candidate> able, const Scene& small, const Goal& goal, double affordable,
                                   Prepared& prepared, const Watch& watch) {
     const auto is_guided = [](const Candidate& c) { return std::holds_alternative<method::Guided>(c.method); };
@@ -233,8 +238,8 @@ std::optional<Trials> try_methods(std::vector<Candidate> able, const Scene& smal
     }
 }
 
-// Whether one method takes clearly less work than the other, and in pilots of another seed, too. (In glass-ball one in four finds
-// `corrected` better than `bidirectional`.)
+// Whether `one` takes clearly less work than `other`, also in pilots of another seed. (In glass-ball one pilot in four
+// finds `corrected` better than `bidirectional`.)
 bool is_better_twice(std::size_t one, std::size_t other, const Trials& trials, const Scene& small, Prepared& prepared,
                      const Watch& watch) {
     if (trials.promise.works[one] >= clearly_better * trials.promise.works[other]) return false;
@@ -298,7 +303,7 @@ MethodChoice choose(const method::Auto& open, const Scene& scene, const Goal& go
                                                    [](const MethodPilot& pilot) { return pilot.candidate.method.index(); }) -
                                  pilots.begin());
     if (!trials->is_known() && of_lights != best && of_lights < pilots.size()) {
-        // The walk, the first of them, meets the fewest of such paths.
+        // The walk, which is the first pilot, meets the fewest rare paths.
         if (best > 0 && is_better_twice(best, of_lights, *trials, small, prepared, of_pilots)) {
             why = fmt::format("rare paths decide, and in two pilots {} took clearly more work than it", name_of(by_lights.method));
         } else {
@@ -315,7 +320,7 @@ MethodChoice choose(const method::Auto& open, const Scene& scene, const Goal& go
                 fmt::format("{} has time for {:.2g} samples a pixel alone", name_of(best_pilot.candidate.method), samples)};
     MethodChoice choice{best_pilot.candidate.method, why + left_out};
     for (std::size_t m = 0; m < pilots.size(); ++m) choice.trials.push_back(described(pilots[m], errors[m]));
-    // Fields have linear RGB alone and no parts, and choose their samples by themselves where an error is to be reached.
+    // Fields support only linear RGB and no parts, and choose their samples themselves if an error is to be reached.
     const bool fields_can = !goal.colors && !goal.part && !(goal.samples && goal.relative_error);
     if (open.bias_allowed && fields_can)
         allow_bias(choice, works[taken], pilots, small, goal, affordable, goal_of_trial(goal, bounces, size), prepared, of_pilots);

@@ -15,7 +15,7 @@ public:
     Paths paths(const Scene&) const override { return Paths::specular; }
     void warn(const Scene& scene, Warnings& warnings) const override;
     bool ends_at_first(const Scene& scene) const override { return !has_specular(scene.materials); }
-    // Points on a light that touches a surface are not.
+    // Points on a light that touches a surface are not bounded.
     bool is_bounded(const SamplingSettings&) const override { return false; }
     std::string why_no_balance() const override { return "by mirrors alone, a path's weight is not what arrives"; }
     std::optional<std::vector<Remedy>> remedies(const Scene&, bool) const override { return {{Remedy::ask_lights}}; }

@@ -15,8 +15,8 @@ namespace neumann {
 class Crew {
 public:
     virtual ~Crew() = default;
-    // Helpers with a render of the scene that they know; `colors` as in Goal. They need a while until they are ready, and have
-    // nothing to do with any render before.
+    // Helpers for a render of the scene, which they know already; `colors` as in Goal. They need a while until they are
+    // ready, and have nothing to do with earlier renders.
     virtual std::unique_ptr<Helpers> begin(const RecordedRender& render, const std::optional<glm::dmat3>& colors) = 0;
     // The same for a method with fields on patches.
     virtual std::unique_ptr<FieldTeam> begin_fields(const Method& method) = 0;

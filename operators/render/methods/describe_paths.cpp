@@ -50,7 +50,7 @@ BounceSeries bounce_series(const RenderedSeries& series, const std::shared_ptr<c
     return out;
 }
 
-// Adds what was done before the first sample.
+// Adds the time and rays spent before the first sample.
 void add_setup(BounceSeries& series, const SamplingSettings& settings, double setup_seconds) {
     if (setup_seconds == 0.0) return;
     series.setup_seconds = setup_seconds;
@@ -72,7 +72,8 @@ PathRecord record_of(const RenderedSeries& sampled, const Method& method, const 
     if (verdict == RestVerdict::not_converging)
         record.why_no_rest = fmt::format("{} of {} walks had not ended after {} bounces and were given up", job.pilot().given_up(),
                                          job.pilot().walks(), job.pilot().bounces() + Pilot::give_up);
-    if (!prepares_fields(method)) record.path_method = settings.method;  // fields are large, and nothing is told of them
+    // fields are large, and nothing is reported about them
+    if (!prepares_fields(method)) record.path_method = settings.method;
     record.chains = sampled.tally.chains;
     if (settings.allocation) {
         SamplingSettings as_sampled = settings;

@@ -1,4 +1,4 @@
-// What was sampled, as the series that a render returns, but for its health.
+// Describes what was sampled as the series that a render returns, without its health.
 #pragma once
 
 #include "operators/render/from_paths/rendered_series.h"
@@ -8,12 +8,12 @@
 
 namespace neumann {
 
-// The method with the options that had been left open.
+// The method, in which the options that were left open are set as they were taken.
 Method as_it_ran(Method method, const SamplingSettings& settings, const Film& film);
 
 RestVerdict rest_verdict(const PathMethod& method, const RenderJob& job);
 
-// A series of paths, and the moments that its pictures refer to.
+// A series of paths, and the moments to which its pictures refer.
 struct AsSeries {
     BounceSeries series;
     std::shared_ptr<const SeriesMoments::Result> moments;

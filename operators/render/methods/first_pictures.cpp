@@ -10,7 +10,7 @@ namespace neumann {
 
 namespace {
 
-constexpr std::uint64_t stream = 0x66697273ull;  // another seed than the pictures'
+constexpr std::uint64_t stream = 0x66697273ull;  // differs from the seed of the pictures
 constexpr int most_pixels = 192, bounces = 6;
 constexpr std::size_t most_shapes = 20'000;
 
@@ -40,7 +40,7 @@ void show_first_pictures(const Scene& scene, const Method& method, const Goal& g
         const auto pictures = render_fields(scene.with(small_film(scene.film, most_pixels)), settings, {.stop = watch.stop});
         if (pictures) watch.show(pictures->bounces(), [&](std::size_t i) { return pictures->term_mean(i); });
     } catch (const InputError&) {
-        // Fields do without some scenes, such as those without surfaces.
+        // Fields cannot render some scenes, such as those without surfaces.
     }
 }
 

@@ -1,4 +1,4 @@
-// Pictures for the first moment of a render that takes a while: of fields on few patches, rough and small, in a fraction of a
+// Shows pictures at the beginning of a long render: from fields on few patches, rough and small, in a fraction of a
 // second.
 #pragma once
 
@@ -8,8 +8,8 @@
 
 namespace neumann {
 
-// Gives them to watch.show. Does nothing if that is empty, where the render is short or begins with fields anyway, where the method
-// makes only some of all paths, and in scenes of so many shapes that patches of them take long.
+// Gives the pictures to watch.show. Does nothing if that is empty, if the render is short or begins with fields anyway,
+// if the method makes only some of all paths, and in scenes with so many shapes that their patches take long.
 void show_first_pictures(const Scene& scene, const Method& method, const Goal& goal, const Watch& watch);
 
 }  // namespace neumann

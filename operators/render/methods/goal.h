@@ -19,7 +19,7 @@ struct Goal {
     std::optional<int> bounces = {};            // N, the last one with a picture of its own
     std::optional<double> tail = {};            // instead of N: N is raised until the rest is below this part of the sum
     std::optional<std::uint64_t> samples = {};  // per pixel
-    std::optional<PartOfSamples> part = {};     // of the samples, which are then those of all parts; paths only
+    std::optional<PartOfSamples> part = {};     // a part of the samples, which then count all parts; paths only
     // The number of independent replicates from which standard errors are estimated. Each takes the same power of two of samples
     // per pixel. The default depends on the samples.
     std::optional<std::uint32_t> replicates = {};
@@ -34,12 +34,12 @@ struct Goal {
 // Samples per pixel in each of goal.replicates. Throws InputError if they are not a power of two.
 std::uint32_t share_of_replicate(const Goal& goal);
 
-// The goal of a render without samples, seconds or error.
+// The default limits of a render without samples, seconds or error.
 constexpr double default_seconds = 20.0, default_error = 0.02;
 // Time limit in seconds of a render that has an error to reach and no time limit of its own.
 constexpr double longest_search = 600.0;
 
-// The same goal with the limits that it has without any.
+// The goal, with the default limits if it has none.
 Goal with_default_limits(Goal goal);
 
 }  // namespace neumann

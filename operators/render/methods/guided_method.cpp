@@ -21,7 +21,7 @@ std::optional<FieldNeeds> Guided::needs() const {
         static_cast<double>(defaults.field_rays) + TracedSeriesSettings{}.light_samples + directions.value_or(defaults.rays)};
 }
 
-// Fewer rays of the tables, down to one in a cell.
+// Guided methods with ever fewer rays of the tables, down to one in a cell.
 std::vector<Guided> Guided::coarser() const {
     std::vector<Guided> all;
     if (directions) return all;

@@ -49,7 +49,7 @@ void expect_other_samples(const std::vector<NamedState>& renders) {
                                                      a->name, b->name, x.seed));
 }
 
-// Of one seed, one after the other from its first replicate on.
+// Whether the renders are of one seed and consecutive, from its first replicate on.
 bool are_consecutive(const std::vector<NamedState>& renders) {
     std::uint64_t next = 0;
     for (const NamedState& r : renders) {
@@ -60,7 +60,7 @@ bool are_consecutive(const std::vector<NamedState>& renders) {
     return true;
 }
 
-// The samples of a pixel get the numbers that they have where those of `before` are in front of them.
+// Renumbers the samples of each pixel so that they follow those of `before`.
 void rename_samples(RenderState& state, const std::vector<SeedRange>& before) {
     const std::uint64_t size = state.render.replicate_size;
     const auto of_pixel = [&](const std::vector<std::uint32_t>& sizes, std::uint32_t pixel) {

@@ -1,4 +1,4 @@
-// Renders of one scene become one: parts of the samples of one seed, or renders of different seeds.
+// Merges renders of one scene into one: parts of the samples of one seed, or renders of different seeds.
 #pragma once
 
 #include "operators/render/methods/saving.h"
@@ -9,14 +9,14 @@
 namespace neumann {
 
 struct NamedState {
-    std::string name;  // for messages
+    std::string name;  // used in messages
     RenderState state;
 };
 
-// Parts that are consecutive replicates of one seed have the bits of the render of all of them. Of others every replicate counts
-// the same, and their samples are renamed: replicates are numbered in the order of `renders`. The errors by samples are those after
-// each of them. Throws InputError, with the names of two that do not go together, if methods, bounces, pictures or replicates are
-// unlike, or if both have the same samples.
+// If all are consecutive replicates of one seed, the result has the bits of one render of all of them. Otherwise every
+// replicate counts the same, and samples are renamed: replicates are numbered in the order of `renders`. The
+// convergence has the errors after each render. Throws InputError, naming two renders that do not go together, if
+// methods, bounces, pictures or replicates are unlike, or if both have the same samples.
 RenderState merge(std::vector<NamedState> renders);
 
 }  // namespace neumann

@@ -25,56 +25,56 @@ struct Watch;
 
 namespace method {
 
-// What a method of paths has to make itself ready with.
+// The arguments of prepare().
 struct Preparing {
     const Scene& scene;
     const SamplingSettings& settings;
     double memory;       // bytes, approximately
-    Prepared& prepared;  // by pilots, and for renders that follow
+    Prepared& prepared;  // shared with pilots and with the renders that follow
     const Watch& watch;
 };
 
 enum class LeavingOut {
-    by_plan,  // leave out what the plan proves unnecessary in this scene (operators/render/plan)
+    by_plan,  // leave out the work that the plan proves unnecessary in this scene (operators/render/plan)
     nothing
 };
 
-// Fields or tables on patches that a method makes ready, of which the time is foretold (preparation.h).
+// The size of fields or tables on patches that a method prepares, from which the time is foretold (preparation.h).
 struct FieldNeeds {
     std::size_t patches;
     double rays_of_facet;
 };
 
-// The decisions of a plan that a method acts on.
+// The decisions of a plan that a method follows.
 using Decisions = std::vector<bool LeftOut::*>;
 
-// Options of all methods that sample paths, and what is asked of each: one that differs has a member of the same name. Each has
-// `name` and `help`, and prepare(), which makes its tables, fields, photons and whatever else it needs before its first sample, and
-// returns how it samples; it throws InputError, and Stopped if `watch` stops it. Options that no other method has are in
-// own_options().
+// The options and functions of all methods that sample paths; a method that differs has a member of the same name. Each
+// method has `name` and `help`, and prepare(), which makes everything that it needs before its first sample, such as
+// tables, fields or photons, and returns how it samples; prepare() throws InputError, and Stopped if `watch` stops it.
+// Options that no other method has are in own_options().
 struct PathOptions {
     std::optional<SamplerKind> sampler = {};  // default: the scene's sampler, or Sobol' points if the scene names none
     LeavingOut plan = LeavingOut::by_plan;
 
-    // Throw InputError if options exclude each other (`lights`: whether --lights was given), if the method cannot render the scene,
-    // and if replicates of so many samples a pixel are too small for it.
+    // Throw InputError if options exclude each other (`lights`: --lights was given), if the method cannot render the
+    // scene, and if replicates of this many samples a pixel are too small for it.
     void expect_sense(bool /*lights*/) const {}
     void expect(const Scene&) const {}
     void expect_room(const Film&, std::uint32_t /*replicate_size*/) const {}
-    // Sets the options that had been left open, as they were taken.
+    // Sets the options that were left open to the values that were taken.
     void complete(const SamplingSettings&, const Film&) {}
 
-    // Nothing: it leaves nothing out.
+    // The plan's decisions that the method follows; nothing if it leaves nothing out.
     std::optional<Decisions> leaves_out() const { return std::nullopt; }
     std::optional<FieldNeeds> needs() const { return std::nullopt; }
-    static constexpr bool shows_fields_first = false;  // pictures by fields, which show what it will make
-    static constexpr bool is_studied = true;           // by a study that names no methods
+    static constexpr bool shows_fields_first = false;  // the first pictures are by fields, which show what it will make
+    static constexpr bool is_studied = true;           // a study that names no methods includes it
     static constexpr bool is_biased = false;
     static constexpr const char* why_no_replay = "";
     bool operator==(const PathOptions&) const = default;
 };
 
-// The method of these that promises least error for its cost in the scene (choose_method.h).
+// Chooses among these methods the one that promises least error for its cost in the scene (choose_method.h).
 struct Auto : PathOptions {
     static constexpr const char* name = "auto";
     static constexpr const char* help =
@@ -83,8 +83,8 @@ struct Auto : PathOptions {
         "(walk, if an option is given that auto does not have, or the render is small)";
     static constexpr bool shows_fields_first = true;
     static constexpr bool is_studied = false;
-    std::optional<LeastError> adaptive = {};  // as of the walk; default: all, if a pilot for it pays
-    bool bias_allowed = false;                // if it may be one of those with a bias, which they state
+    std::optional<LeastError> adaptive = {};  // as in Walk; default: all, if a pilot for it pays
+    bool bias_allowed = false;                // also choose among methods with a bias, which they state
     bool operator==(const Auto&) const = default;
 };
 
@@ -96,9 +96,9 @@ struct Walk : PathOptions {
     DirectLightSettings direct = {};
     Roulette roulette = {};
     Split split = {};
-    std::optional<LeastError> adaptive = {};  // if pixels have different numbers of samples: to make this least
+    std::optional<LeastError> adaptive = {};  // pixels have different numbers of samples, to make this error least
     bool reuse = false;                       // walks of neighbouring pixels use each other's tails
-    std::optional<TreeGoal> tree = {};        // if the walk splits and ends by the best numbers for its depths: for what
+    std::optional<TreeGoal> tree = {};        // the walk splits and ends by the best numbers for its depths, for this goal
 
     void expect_sense(bool lights) const;
     std::optional<Decisions> leaves_out() const;
@@ -114,12 +114,12 @@ struct Guided : PathOptions {
     static constexpr bool shows_fields_first = true;
     std::optional<std::size_t> patches = {};
     std::optional<std::uint32_t> directions = {};
-    std::optional<LeastError> adaptive = {};  // as of the walk
+    std::optional<LeastError> adaptive = {};  // as in Walk
 
     std::optional<Decisions> leaves_out() const;
     std::optional<FieldNeeds> needs() const;
     std::shared_ptr<const PathMethod> prepare(const Preparing& preparing) const;
-    // The same, less and less fine, with what was left open.
+    // The same method with ever coarser values of the options that were left open.
     std::vector<Guided> coarser() const;
     void complete(const SamplingSettings& settings, const Film& film);
     bool operator==(const Guided&) const = default;
@@ -133,11 +133,11 @@ struct Corrected : PathOptions {
     static constexpr bool shows_fields_first = true;
     std::optional<std::size_t> patches = {};
     std::optional<std::uint32_t> directions = {};
-    std::optional<LeastError> adaptive = {};  // as of the walk
+    std::optional<LeastError> adaptive = {};  // as in Walk
 
     std::optional<FieldNeeds> needs() const;
     std::shared_ptr<const PathMethod> prepare(const Preparing& preparing) const;
-    std::vector<Corrected> coarser() const;  // as above
+    std::vector<Corrected> coarser() const;  // as in Guided
     void complete(const SamplingSettings& settings, const Film& film);
     bool operator==(const Corrected&) const = default;
 };
@@ -172,7 +172,7 @@ struct Bidirectional : PathOptions {
     DirectLightSettings direct = {};  // must be multiple importance sampling: it both samples lights and hits them
     Roulette roulette = {};
     Split split = {};
-    std::optional<LeastError> adaptive = {};  // as of the walk
+    std::optional<LeastError> adaptive = {};  // as in Walk
     std::optional<int> ways = {};             // show every way (s, t) to make this bounce (ways.h)
 
     void expect(const Scene& scene) const;
@@ -182,13 +182,13 @@ struct Bidirectional : PathOptions {
     bool operator==(const Bidirectional&) const = default;
 };
 
-// Progressive photon maps: paths from the lights leave their power where they are reflected, and walks from the camera read it
-// nearby.
+// Progressive photon maps: paths from the lights leave their power where they are reflected, and walks from the camera
+// read nearby photons.
 struct Photon : PathOptions {
     static constexpr const char* name = "photon";
     static constexpr const char* help = "photon maps, for caustics, with a bias that falls";
     std::optional<std::uint32_t> photons = {};  // paths from the lights in each pass
-    std::optional<double> radius = {};          // in the first pass; by a pilot if it is not given
+    std::optional<double> radius = {};          // in the first pass; a pilot finds it if it is not given
     bool gather = false;                        // one more reflection is sampled before a map is read
     static constexpr bool is_biased = true;
 
@@ -198,17 +198,17 @@ struct Photon : PathOptions {
     bool operator==(const Photon&) const = default;
 };
 
-// An irradiance cache: records on diffuse surfaces hold the irradiance of each bounce, from that of the bounce before, and walks
-// from the camera read it nearby.
+// An irradiance cache: records on diffuse surfaces hold the irradiance of each bounce, computed from that of the bounce
+// before, and walks from the camera read nearby records.
 struct Cache : PathOptions {
     static constexpr const char* name = "cache";
     static constexpr const char* help = "an irradiance cache, for diffuse rooms, with a bias that stays";
-    Spacing records = Spacing::hessian;            // what says where records stand
+    Spacing records = Spacing::hessian;            // the rule by which records are placed
     std::optional<double> accuracy = {};           // the error allowed to records (cache_settings.h)
     std::optional<std::uint32_t> directions = {};  // rays of a record in each pass
     static constexpr bool is_biased = true;
 
-    // With defaults for what is not given.
+    // The settings, with defaults for options that are not given.
     CacheSettings settings() const;
 
     std::shared_ptr<const PathMethod> prepare(const Preparing& preparing) const;
@@ -231,15 +231,15 @@ struct Metropolis : PathOptions {
     bool operator==(const Metropolis&) const = default;
 };
 
-// Walk, guided, corrected, bidirectional, light and metropolis together: each block of the picture and each bounce is a mean of
-// their pictures, weighted by their precision there, which a pilot tells (best_mixture.h).
+// Walk, guided, corrected, bidirectional, light and metropolis together: each block of the picture and each bounce is a
+// mean of their pictures, weighted by their precision there, which a pilot estimates (best_mixture.h).
 struct Mixed : PathOptions {
     static constexpr const char* name = "mixed";
     static constexpr const char* help =
         "walk, guided, corrected, bidirectional, light and metropolis, each for the blocks and the bounces where it is best";
     static constexpr bool shows_fields_first = true;
     static constexpr bool is_studied = false;
-    std::optional<LeastError> adaptive = {};  // what it makes least; default: all
+    std::optional<LeastError> adaptive = {};  // the error that it makes least; default: all
 
     std::shared_ptr<const PathMethod> prepare(const Preparing& preparing) const;
     bool operator==(const Mixed&) const = default;
@@ -278,21 +278,21 @@ struct FieldOptions {
     bool operator==(const FieldOptions&) const = default;
 };
 
-// The series is computed with T and R on patches, and the field is interpolated at the pixel.
+// Computes the series with T and R on patches and interpolates the field at the pixel.
 struct Matrix : FieldOptions {
     static constexpr const char* name = "matrix";
     static constexpr const char* help = "T and R on patches, fast";
     bool operator==(const Matrix&) const = default;
 };
 
-// As Matrix, with K applied once more at the pixel (final gathering).
+// The same as Matrix, with K applied once more at the pixel (final gathering).
 struct Gather : FieldOptions {
     static constexpr const char* name = "gather";
     static constexpr const char* help = "T and R on patches, with K applied once more at the pixel";
     bool operator==(const Gather&) const = default;
 };
 
-// The piecewise constant field on the patches is shown as it is.
+// Shows the piecewise constant field on the patches as it is.
 struct Patches : FieldOptions {
     static constexpr const char* name = "patches";
     static constexpr const char* help = "the patches as they are";
@@ -319,7 +319,7 @@ inline bool has_fields(const Method& method) {
     return std::visit([]<class M>(const M&) { return HasFields<M>; }, method);
 }
 
-// What pixels have different numbers of samples for, if they have.
+// The error for which pixels have different numbers of samples; nothing if they have the same number.
 inline std::optional<LeastError> adaptive_of(const Method& method) {
     return std::visit(
         [](const auto& m) -> std::optional<LeastError> {
@@ -331,7 +331,7 @@ inline std::optional<LeastError> adaptive_of(const Method& method) {
         method);
 }
 
-// Whether its pictures differ from the terms by an error that samples do not show, and estimate it.
+// Whether the method's pictures have an error that samples do not show, and which it estimates.
 inline bool is_biased(const Method& method) {
     return std::visit([](const auto& m) { return m.is_biased; }, method);
 }

@@ -1,4 +1,4 @@
-// Why --method auto took the method that it took.
+// The reason why --method auto took a method.
 #pragma once
 
 #include "operators/render/methods/method.h"
@@ -8,7 +8,7 @@
 
 namespace neumann {
 
-// What a method did in the pilot.
+// The result of a method's pilot.
 struct MethodTrial {
     std::string method;
     double rays = 0.0;   // per camera sample, without those before the first sample
@@ -18,7 +18,7 @@ struct MethodTrial {
 struct MethodChoice {
     Method method;
     std::string why;                       // in words
-    std::vector<MethodTrial> trials = {};  // none if there was nothing to choose, or too little to gain
+    std::vector<MethodTrial> trials = {};  // empty if there was nothing to choose, or too little to gain
     double seconds = 0.0;
 };
 

@@ -6,7 +6,7 @@ namespace neumann {
 
 namespace {
 
-// Names of Mitsuba, pbrt and papers.
+// Names that methods have in Mitsuba, pbrt and papers.
 const Named<std::string> methods_elsewhere{
     {"path", "walk"},      {"pt", "walk"},           {"bdpt", "bidirectional"},  {"vcm", "photon or bidirectional"},
     {"ptracer", "light"},  {"lighttracer", "light"}, {"photonmapper", "photon"}, {"ppm", "photon"},

@@ -1,5 +1,5 @@
-// The only table of the methods' options: name, legal values, help text, and which methods have the option. The command line and
-// its help, run.json, replays, studies and Python use it.
+// The only table of the methods' options: name, legal values, help text, and which methods have the option. The command
+// line with its help, run.json, replays, studies and Python use it.
 #pragma once
 
 #include "operators/render/methods/method.h"
@@ -23,15 +23,15 @@ struct MethodOption {
     std::function<void(Method&, const std::string&)> read;
     // The value in the form that read() accepts; empty if the method does not have the option or leaves it open.
     std::function<std::string(const Method&)> text;
-    std::vector<std::string> words = {};  // all that read() accepts, where it accepts nothing but some words
+    std::vector<std::string> words = {};  // all words that read() accepts, if it accepts nothing else
 };
 
 // All options, in the order of the help.
 std::span<const MethodOption> method_options();
 std::vector<std::string> method_names();
-// What is wrong with the name of a method, and what may be meant; "" if it is one.
+// Explains what is wrong with the name of a method, and which name may be meant; "" if there is such a method.
 std::string wrong_method(const std::string& name);
-// Help text: a method in a few words, and all of them.
+// Help texts: for a method in a few words, and for the choice of a method.
 const char* help_of(const Method& method);
 const std::string& method_help();
 
@@ -40,16 +40,17 @@ struct MethodText {
     std::string name = {};  // empty: auto, or walk if an option is given that auto does not have
     std::vector<std::pair<std::string, std::string>> options = {};
 };
-// Throws InputError where a name or a text is unknown, an option does not belong to the method, or two of them exclude each other.
+// Throws InputError if a name or a text is unknown, an option does not belong to the method, or two options exclude
+// each other.
 Method make_method(const MethodText& text);
-// The same in one word: "walk:direct=bsdf:lights=power".
+// Reads a method from one word: "walk:direct=bsdf:lights=power".
 Method read_method(const std::string& word);
-// The value of --direct that gives these settings, and whether lights are chosen by it.
+// The value of --direct for these settings, and whether it has light samples, for which lights are chosen.
 std::string name_of(const DirectLightSettings& direct);
 bool asks_lights(const DirectLightSettings& direct);
 // The inverse of make_method(): all options that are not left open.
 MethodText text_of(const Method& method);
-// As text_of(), with only those options that differ from their defaults.
+// Like text_of(), but only with options that differ from their defaults.
 MethodText differences_of(const Method& method);
 
 }  // namespace neumann

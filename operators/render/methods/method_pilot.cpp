@@ -12,7 +12,7 @@ namespace {
 
 using Term = MethodPilot::Term;
 
-// A difference shows more than the errors that are stated, if its square is so many times as large.
+// A difference shows more than the stated errors if its square is this many times as large.
 constexpr double clearly_more = 2.0;
 
 double square(const Image& image) {
@@ -32,7 +32,7 @@ MethodPilot pilot_of(const Candidate& candidate, const BounceSeries& series) {
         PixelEstimate term = series.term(bounce);
         const MeanWithError& mean = series.report.bounces[bounce].mean;
         double variance = square(term.standard_error);
-        // Where replicates agree by chance, their spread tells less than the errors that goals look at.
+        // If replicates agree by chance, their spread shows less than the errors that goals look at.
         if (!has_fields(candidate.method)) {
             const double relative = series.convergence.back().term_error[bounce];
             variance = std::max(variance, relative * relative * square(term.mean));
@@ -49,7 +49,7 @@ const Term* surest(const std::vector<MethodPilot>& known, std::size_t i) {
         if (pilot.terms[i].least_light > best->least_light) best = &pilot.terms[i];
     return best->least_light > 0.0 && best->light() > 0.0 ? best : nullptr;
 }
-// Σ|a − b|², of which the variances of both are a part.
+// Σ|a − b|², which includes the variances of both.
 double square_of_difference(const Term& a, const Term& b) {
     double sum = 0.0;
     for (std::size_t p = 0; p < a.picture.pixels.size(); ++p) {
@@ -81,7 +81,7 @@ std::vector<MethodPilot> make_pilots(const std::vector<Candidate>& methods, cons
             const BounceSeries series = render(small, candidate.method, goal, {.stop = watch.stop}, prepared);
             if (series.outcome != Outcome::interrupted) pilots.push_back(pilot_of(candidate, series));
         } catch (const InputError&) {
-            // A scene without surfaces has no patches.
+            // Some methods cannot render all scenes: one without surfaces has no patches.
             if (pilots.empty() && !may_refuse) throw;
         } catch (const RunError&) {
             if (!watch.stop()) throw;
@@ -96,14 +96,14 @@ double rays_of(const std::vector<MethodPilot>& pilots) {
     return rays;
 }
 
-// One that has not met the rare paths of a bounce sees neither their light nor their variance; so it is also compared with that of
-// `known` which is sure of most light.
+// A method that has not met the rare paths of a bounce sees neither their light nor their variance; so it is also
+// compared with the method among `known` that is sure of most light.
 double unbiased_error(const MethodPilot& pilot, const std::vector<MethodPilot>& known) {
     return relative_error(pilot, known, [](const Term& term, const Term& best) {
         return std::max(term.variance, square_of_difference(term, best) - best.variance);
     });
 }
-// The bias counts as it is stated, or as the pictures of `known` show it, where that is clearly more.
+// The bias counts as it is stated, or as the pictures of `known` show it, if that is clearly more.
 double error_with_bias(const MethodPilot& pilot, const std::vector<MethodPilot>& known) {
     return relative_error(pilot, known, [](const Term& term, const Term& best) {
         const double stated = term.variance + term.squared_bias, shown = square_of_difference(term, best);

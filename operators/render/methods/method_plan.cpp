@@ -10,7 +10,8 @@ namespace neumann {
 
 namespace {
 
-// The decisions that a method acts on; nothing if it leaves nothing out. Fields take all that is no decision of walks.
+// The decisions that a method follows; nothing if it leaves nothing out. Fields follow the parts of the plan that are
+// not decisions of walks.
 template <class M>
 std::optional<method::Decisions> decisions(const M& m) {
     if constexpr (MakesPaths<M>)

@@ -1,4 +1,4 @@
-// Which work a method can leave out in a scene.
+// The work that a method can leave out in a scene.
 #pragma once
 
 #include "operators/render/methods/method.h"
@@ -6,7 +6,8 @@
 
 namespace neumann {
 
-// The plan has no parts if the method's options forbid leaving anything out, or if the method supports no plan.
+// The plan for a method. It has no parts if the method's options forbid leaving anything out, or if the method supports
+// no plan.
 Plan plan_for(const Method& method, const Scene& scene);
 // All parts of the scene's plan, and the late bounces that a render without a given N would leave out.
 Plan plan_with_bounces(const Scene& scene);

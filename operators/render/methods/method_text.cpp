@@ -1,4 +1,4 @@
-// Methods from text, and back.
+// Methods read from text and written as text.
 #include "operators/render/methods/method_options.h"
 
 #include "core/base/error.h"

@@ -18,7 +18,7 @@ std::vector<MethodOption> Metropolis::own_options() {
         [](const Metropolis& m) { return m.chain; }, [](Metropolis& m, std::uint32_t n) { m.chain = n; })};
 }
 
-// Chains longer than a replicate has room for.
+// Refuses chains that are longer than a replicate has room for.
 void Metropolis::expect_room(const Film& film, std::uint32_t replicate_size) const {
     const std::uint64_t states =
         std::uint64_t{replicate_size} * static_cast<std::uint64_t>(film.crop_width) * static_cast<std::uint64_t>(film.crop_height);

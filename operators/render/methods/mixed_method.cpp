@@ -13,7 +13,7 @@ namespace neumann::method {
 
 namespace {
 
-// The pilot's film is so much smaller, but has at least so many pixels on its larger side.
+// The pilot's film is smaller by this factor, but has at least size_of_pilot pixels on its larger side.
 constexpr int scale_of_pilot = 4, size_of_pilot = 32;
 
 }  // namespace
@@ -24,12 +24,12 @@ std::shared_ptr<const PathMethod> Mixed::prepare(const Preparing& in) const {
     for (const Candidate& candidate : mixture_candidates(*this, scene)) try {
             SamplingSettings own = in.settings;
             own.walk.left_out = plan_for(candidate.method, scene).walk;
-            sampling_settings(candidate.method, scene, {}, own.seed);  // refuses what it cannot do
+            sampling_settings(candidate.method, scene, {}, own.seed);  // throws if the method cannot render the scene
             Prepared prepared(own.seed);
             set_up(candidate.method, scene, own.walk.bounces, in.memory / 2.0, own, prepared, in.watch);
             all.push_back({name_of(candidate.method), own, candidate.price});
         } catch (const InputError&) {
-            // Others refuse what the walk does not: a scene without surfaces has no patches.
+            // Methods other than the walk may refuse a scene: one without surfaces has no patches.
             if (all.empty()) throw;
         }
     const int size = std::max(scene.film.crop_width, scene.film.crop_height);

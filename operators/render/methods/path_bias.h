@@ -7,7 +7,8 @@
 
 namespace neumann {
 
-// The picture with its bias, if the method has one; `difference()` is its picture of the differences between two radii.
+// The picture with its bias, if the method has one; `difference()` returns its picture of the differences between two
+// radii.
 template <class Difference>
 Estimate with_bias(Estimate picture, const Difference& difference, const std::optional<TwoRadii>& radii,
                    const SeriesMoments::Result& result) {
@@ -15,9 +16,9 @@ Estimate with_bias(Estimate picture, const Difference& difference, const std::op
     return picture;
 }
 
-// `relative` is without the noise of the difference itself. In the sum that is taken to be, with photon maps, what it is for their
-// kernel if all noise is of photons: its variance is half of the picture's; and with a cache that of the terms, as if they were
-// independent.
+// Sets the bias in the report; `relative` is without the noise of the difference itself. In the sum that noise is not
+// measured: for photon maps its variance is taken to be that of their kernel if all noise is from photons, which is
+// half of the picture's; for a cache that of the terms, as if they were independent.
 void report_bias(const Film& film, const SeriesMoments::Result& result, const PathMethod& method, BounceSeries& series);
 
 }  // namespace neumann

@@ -1,4 +1,4 @@
-// Each term is evaluated recursively from the start, as written in the equations: slow, and without a rest.
+// Evaluates each term recursively from the start, as written in the equations: slow, and without a rest.
 
 #include "core/base/error.h"
 #include "core/scene/pass_lights.h"

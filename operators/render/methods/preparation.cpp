@@ -13,18 +13,18 @@ namespace neumann {
 
 namespace {
 
-// A scene of boxes and a limit of a second are no reason to do without.
+// A preparation of at least short_preparation is always allowed, so that a scene of boxes with a limit of one second
+// can have it.
 constexpr double part_of_time = 1.0 / 3.0, short_preparation = 0.5;
 double longest_preparation(double seconds) { return std::max(part_of_time * seconds, short_preparation); }
 
-// A ray for fields or tables takes less than one of the pilot's walks: it has no shading, begins where others do, and asks nothing
-// about what is near. A face is joined to its neighbours. Measured with 1000 patches (tests/bench/bench_mesh.py), foretold in
-// brackets: in a room with a body of 1000, 30,000 and 10⁶ triangles 0.12 (0.10), 0.17 (0.12) and 0.63 s (0.47), in a cave of the
-// latter two 0.37 (0.34) and 1.3 s (1.6).
+// A ray for fields or tables takes less time than one of the pilot's walks: it needs no shading and no search for close
+// surfaces, and starts where others do. The time of a face is that of joining it to its neighbours
+// (tests/bench/bench_mesh.py compares forecasts with measured times).
 constexpr double price_of_ray = 0.6, seconds_of_face = 3e-7;
 
 using Shapes = std::vector<Preparations::ShapeSides>;
-// `least`: patches of a shape.
+// `least`: the least number of patches of a shape.
 double facets_of(const Shapes& shapes, double patches, double least = 1.0) {
     double facets = 0.0;
     for (const Preparations::ShapeSides& shape : shapes)
@@ -48,7 +48,7 @@ Needs needs_of(const M&, const Shapes& shapes) {
     const double facets = facets_of(shapes, static_cast<double>(first.patching.patches), 4.0);  // as Patching::compared
     return {facets, static_cast<double>(first.replicates) * (static_cast<double>(first.rays) + first.light_samples) * facets};
 }
-// The method, and with what the user has left open less and less fine.
+// The method, followed by ever coarser versions of it in the options that the user has left open.
 std::vector<Method> less_and_less_fine(const Method& method) {
     std::vector<Method> all{method};
     std::visit(

@@ -1,4 +1,5 @@
-// What a method makes ready before its first sample, foretold from the patches of the scene: each side of a shape is one at least.
+// The work of a method before its first sample, foretold from the patches of the scene: each side of a shape has at
+// least one.
 #pragma once
 
 #include "operators/render/from_paths/pilot.h"
@@ -20,17 +21,19 @@ class Preparations {
 public:
     Preparations(const Scene& scene, const Pilot& pilot);
 
-    // Of fields and tables for paths, and of the first and smallest fields of methods that read pictures from fields; nothing for
-    // methods whose preparation does not grow with the scene.
+    // Foretells the work for fields and tables for paths, and for the first and smallest fields of methods that read
+    // pictures from fields; zero for methods whose preparation does not grow with the scene.
     Preparation of(const Method& method) const;
-    // The method, or the finest of those with an option less fine, of which the preparation takes at most so long.
+    // The method, or the finest of its versions with a coarser option, whose preparation takes at most this many
+    // seconds.
     std::optional<Method> fitting(double seconds, const Method& method) const;
-    // The one that takes no longer than it may in a render of so many seconds. Throws InputError if there is none.
+    // The same for the preparation that a render of this many seconds may have. Throws InputError if none is short
+    // enough.
     Method in_time(double seconds, const Method& method) const;
 
     struct ShapeSides {
         double share = 0.0;  // of the area
-        double sides = 0.0;  // that reflect or shine
+        double sides = 0.0;  // number of sides that reflect or emit
     };
 
 private:
@@ -39,10 +42,10 @@ private:
     double seconds_per_ray_;
 };
 
-// Whether a method of paths makes fields or tables on patches ready.
+// Whether a method of paths prepares fields or tables on patches.
 bool prepares_fields(const Method& method);
 
-// A preparation is given up after so many seconds: what was foretold may be wrong by a half.
+// The seconds after which a preparation is given up in a render of `seconds`: the forecast may be wrong by a half.
 double cut_off_preparation(double seconds);
 
 // "its fields on 4000 patches would take about 3.6 s to make"

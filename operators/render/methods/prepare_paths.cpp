@@ -19,19 +19,18 @@ namespace {
 // The time for sampling, in seconds, if the set-up has used up the limit.
 constexpr double shortest_sampling = 1e-3;
 
-// The time of a sample beside that of a walk: by its rays, or as measured, the largest in boxes and on a mesh of 10,000 triangles
-// in a room, of two processors.
+// The time of a sample relative to that of a walk.
 double walks_worth(const SamplingSettings& settings, const RenderJob& job) {
     const int N = settings.walk.bounces;
     const std::span<const double> rays = job.pilot().rays();
     return settings.method->walks_worth(N, rays.first(std::min(rays.size(), static_cast<std::size_t>(N) + 1)));
 }
 
-// Samples per pixel in one replicate: as many as still give several replicates.
+// The samples per pixel in one replicate: as many as still give several replicates.
 std::uint32_t choose_replicate_size(const SamplingGoal& goal, const SamplingSettings& settings, const RenderJob& job) {
     if (job.saving.from) return job.saving.from->render.replicate_size;
     if (job.goal.replicates) return share_of_replicate(job.goal);
-    if (goal.samples) return replicate_size(*goal.samples);  // which are whole replicates
+    if (goal.samples) return replicate_size(*goal.samples);  // these are whole replicates
     if (!goal.seconds) return largest_replicate;
     const Film& film = job.scene.film;
     const Split& split = settings.walk.split;
@@ -50,7 +49,7 @@ SamplingGoal sampling_goal(const Goal& goal) {
     return to_reach;
 }
 
-// The replicates of a part, and of no other.
+// Restricts the goal to the replicates of one part.
 void take_part(const PartOfSamples& part, std::uint64_t size, SamplingGoal& goal) {
     const std::uint64_t all = *goal.samples / size;
     if (all < part.n)
@@ -61,20 +60,20 @@ void take_part(const PartOfSamples& part, std::uint64_t size, SamplingGoal& goal
     goal.samples = (all * part.k / part.n - goal.first) * size;
 }
 
-// Seconds from which a preparation without a time limit is told of before it begins.
+// A preparation without a time limit that takes more seconds than this is reported before it begins.
 constexpr double long_preparation = 600.0;
-// Samples a pixel that a film should have.
+// The number of samples a pixel that a film should have.
 constexpr double enough_samples = 16.0;
 
-// The seconds of the whole render, if it has a limit.
+// The time limit of the whole render in seconds, if it has one.
 std::optional<double> time_limit(const Goal& goal) { return with_default_limits(goal).seconds; }
 
-// The method as it is prepared in the time that there is. Tells what takes long before it begins.
+// The method as it is prepared in the available time. Reports a long preparation before it begins.
 Method foretold(const Method& method, int bounces, const RenderJob& job) {
     if (job.goal.only_pictures || job.saving.from) return method;
     const std::optional<double> seconds = time_limit(job.goal);
     if (!seconds) {
-        // What a method prepares for is known without a pilot, but not how long its rays take.
+        // A pilot is needed to know how long the rays take.
         if (!prepares_fields(method)) return method;
         const Preparation preparation = Preparations(job.scene, job.pilot()).of(method);
         if (preparation.seconds > long_preparation)

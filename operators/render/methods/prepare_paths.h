@@ -1,4 +1,4 @@
-// What a render by paths is made ready with, before its first sample.
+// Prepares a render by paths before its first sample.
 #pragma once
 
 #include "operators/render/from_paths/rendered_series.h"
@@ -6,17 +6,17 @@
 
 namespace neumann {
 
-// Makes the method ready in the render's time. Returns false if it had nothing to do; throws RunError if it took too long, and
-// Stopped.
+// Prepares the method within the render's time. Returns false if there was nothing to do; throws RunError if it took
+// too long, and Stopped.
 bool set_up(const Method& method, const RenderJob& job, SamplingSettings& settings);
 
 struct PreparedPaths {
-    Method method;  // as it is made ready in the time that there is
+    Method method;  // the method as it is prepared in the available time
     SamplingSettings settings;
     SamplingGoal goal;
     double setup_seconds;
 };
-// Tells what takes long before it begins. Throws as above, and InputError.
+// Reports long preparations before they begin. Throws as above, and InputError.
 PreparedPaths prepare_paths(const Method& asked, const RenderJob& job);
 
 }  // namespace neumann

@@ -1,5 +1,5 @@
-// What methods make ready before their first sample, once for a render: a pilot that tries a method leaves its tables or fields to
-// the render that follows.
+// Holds what methods prepare before their first sample, so that it is made once: a pilot that tries a method leaves its
+// tables or fields to the render that follows.
 #pragma once
 
 #include "operators/render/from_paths/path_method.h"
@@ -14,16 +14,16 @@ namespace neumann {
 
 class Prepared {
 public:
-    // For a render with this seed, up to this bounce at least.
+    // `seed`: the seed of the render; `bounces`: the least number of bounces.
     explicit Prepared(std::uint64_t seed, int bounces = 0) : seed_(seed), bounces_(bounces) {}
 
     std::uint64_t seed() const { return seed_; }
     int bounces(int wanted) const { return std::max(wanted, bounces_); }
 
-    // What was kept by the name of a method, or null. It refers to no scene, but to its geometry.
+    // The method that was kept under this name, or null. It refers to no scene, only to its geometry.
     std::shared_ptr<const PathMethod> of(const std::string& method) const;
     std::shared_ptr<const PathMethod> keep(const std::string& method, std::shared_ptr<const PathMethod> made);
-    // Forgets what other methods have made.
+    // Forgets the other methods.
     void keep_only(const std::string& method);
 
 private:
@@ -32,7 +32,7 @@ private:
     std::map<std::string, std::shared_ptr<const PathMethod>> made_;
 };
 
-// Whether fields or tables that were made with these settings serve for others.
+// Whether fields or tables that were made with settings `made` serve for settings `wanted`.
 template <class Settings>
 bool serves(const Settings& made, const Settings& wanted) {
     return made.patches == wanted.patches && made.rays == wanted.rays && made.bounces >= wanted.bounces;

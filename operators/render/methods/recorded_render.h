@@ -1,4 +1,4 @@
-// Samples of a render that ran before, traced again.
+// Traces samples of an earlier render again.
 #pragma once
 
 #include "operators/render/methods/method.h"
@@ -12,7 +12,7 @@
 
 namespace neumann {
 
-// What determines the samples of a render in its scene: as in the BounceSeries that it returned.
+// The settings that determine the samples of a render in its scene: as in the BounceSeries that it returned.
 struct RecordedRender {
     Method method;
     std::uint64_t seed = 0;
@@ -21,10 +21,10 @@ struct RecordedRender {
     std::uint32_t replicate_size = 1;
 };
 
-// Why this method has no paths to replay, in words; empty if it has.
+// Explains why this method has no paths to replay, in words; empty if it has.
 std::string why_no_replay(const Method& method);
 
-// Many samples of one render. With the same bits as in the render, if the scene is the same.
+// Many samples of one render, with the same bits as in the render if the scene is the same.
 class RecordedSamples {
 public:
     // The scene must outlive this object. Throws InputError if the method cannot render it.

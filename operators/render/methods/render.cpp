@@ -41,7 +41,7 @@ BounceSeries render_chosen(const Scene& scene, const method::Auto& open, const G
     try {
         return render(scene, choice->method, goal, watch, pilot, saving, choice, prepared, clock);
     } catch (const Stopped&) {
-        // What can still be sampled is walks, as where the pilot itself was interrupted.
+        // Walks need no preparation, as when the pilot itself was interrupted.
         choice->why = fmt::format("the render was interrupted while {} was made ready", name_of(choice->method));
         choice->method = method::Walk{open};
     }

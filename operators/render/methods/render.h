@@ -8,13 +8,13 @@
 
 namespace neumann {
 
-// L = Le + K Le + K² Le + …, bounce by bounce. If `watch` stops it, it returns what it has. Throws InputError if scene, method and
-// goal are incompatible, and RunError if a tail cannot be met or nothing was finished before the stop. The result holds no
-// reference to the scene.
+// Renders L = Le + K Le + K² Le + …, bounce by bounce. If `watch` stops it, it returns what it has. Throws InputError
+// if scene, method and goal are incompatible, and RunError if a tail cannot be met or nothing was finished before the
+// stop. The result holds no reference to the scene.
 BounceSeries render(const Scene& scene, const Method& method, const Goal& goal, const Watch& watch = {});
-// As above, and saved while it is under way.
+// As above; the render is saved while it is under way.
 BounceSeries render(const Scene& scene, const Method& method, const Goal& goal, const Watch& watch, Saving saving);
-// As above, with a pilot of the scene that exists already.
+// As above, with an existing pilot of the scene.
 BounceSeries render(const Scene& scene, const Method& method, const Goal& goal, const Watch& watch, const Pilot& pilot,
                     Saving saving = {});
 

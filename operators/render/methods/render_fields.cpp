@@ -20,7 +20,8 @@ namespace neumann {
 
 namespace {
 
-// Samples per pixel of a replicate if patches or directions are given but not samples: about enough for default_error.
+// The samples per pixel of a replicate if patches or directions are given but not samples: about enough for
+// default_error.
 constexpr std::uint32_t default_samples = 16;
 // Warn if the 95% interval of a mean is wider than this part of the mean.
 constexpr double wide_interval = 0.1;
@@ -91,7 +92,7 @@ FieldGoal choose_goal(const Goal& goal, const FieldSettings& settings, bool give
     return chosen;
 }
 
-// The series of a run's pictures, which may be shared with it.
+// The series of a run's pictures, which the series and the run may share.
 BounceSeries as_series(const std::shared_ptr<const FieldPictures>& pictures, const FieldRun& run, const Scene& scene) {
     BounceSeries series;
     series.term = [pictures](std::size_t i) { return pictures->term(i); };
@@ -125,7 +126,8 @@ BounceSeries as_series(const std::shared_ptr<const FieldPictures>& pictures, con
     return series;
 }
 
-// Links find it (operators/fields/matrix/link_light.h); the direct light in a cell does not.
+// Whether light from mirrors is missed: links find it (operators/fields/matrix/link_light.h), the direct light in a
+// cell does not.
 template <HasFields M>
 bool misses_mirrored_light(const Scene& scene, const M& m) {
     const FieldReading reading = kind(m);
@@ -151,7 +153,7 @@ BounceSeries render_by(M m, const RenderJob& job) {
     const bool searches = !given || goal.seconds;
     if (saving.from &&
         !(searches ? !given || is_within(saving.from->settings, settings) : same_pictures(saving.from->settings, settings)))
-        saving.from.reset();  // more samples, or others, are other pictures
+        saving.from.reset();  // other settings make other pictures
     const double seconds_before = saving.from ? saving.from->seconds : 0.0;
     const Stopwatch clock;
     saving.is_due = job.saving.fields_are_due;
@@ -160,7 +162,7 @@ BounceSeries render_by(M m, const RenderJob& job) {
         progress.seconds = seconds_before + clock.seconds();
         job.saving.keep_fields({m, goal.seed, settings.bounces, 0.0, settings.samples}, job.choice, progress);
     };
-    // Importance is carried by T*, whose columns are on all processes: this one makes its pictures alone.
+    // Importance is carried by T*, whose columns are on all processes, so this process makes its pictures alone.
     const std::unique_ptr<FieldTeam> team = job.watch.crew && !importance ? job.watch.crew->begin_fields(m) : nullptr;
     if (team) settings.memory /= team->on_this_machine();
     std::function<void(const FieldRun&)> see;

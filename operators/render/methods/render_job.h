@@ -1,4 +1,4 @@
-// What the two implementations of render() share.
+// Data and functions that both implementations of render() share.
 #pragma once
 
 #include "core/base/stopwatch.h"
@@ -46,16 +46,17 @@ struct RenderJob {
     Saving& saving;
     const std::optional<MethodChoice>& choice;
     Prepared& prepared;
-    const Stopwatch& clock;  // since the render began, with its pilots
+    const Stopwatch& clock;  // runs since the render began, including its pilots
 
-    // What counts towards goal.seconds before the first sample: of a render that goes on, its pilots of then, too.
+    // The seconds before the first sample that count towards goal.seconds; for a continued render, those of its earlier
+    // pilots too.
     double seconds_gone() const { return clock.seconds() + (saving.from && choice ? choice->seconds : 0.0); }
 };
 
-// render(), with what was prepared before, or will be used again.
+// Like render(); uses what was prepared before and keeps what will be used again.
 BounceSeries render(const Scene& scene, const Method& method, const Goal& goal, const Watch& watch, Prepared& prepared);
 
-// What is the same of all series of a job.
+// Sets the parts of a series that are the same for all series of a job.
 void describe(BounceSeries& series, const RenderJob& job);
 
 BounceSeries render_by_paths(const Method& method, const RenderJob& job);
@@ -63,7 +64,7 @@ BounceSeries render_by_fields(const Method& method, const RenderJob& job);
 
 // N, the last bounce with a picture of its own. Throws RunError if a tail cannot be met.
 int choose_bounces(const Goal& goal, const Scene& scene, const PilotOnDemand& pilot);
-// The same, or that of the render that goes on; calls watch.chosen(N).
+// The same, or the N of the render that is continued; calls watch.chosen(N).
 int choose_bounces(const RenderJob& job);
 
 }  // namespace neumann

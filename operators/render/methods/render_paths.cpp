@@ -29,8 +29,9 @@ void check_memory(const Goal& goal, const Film& film, int bounces, std::size_t q
                         bounces, film.crop_width, film.crop_height, bytes / 0x1p30, memory / 0x1p30));
 }
 
-// For --tail the pilot has chosen N. If the rendered rest is still too large, sample() renders again with a larger N; and with
-// larger replicates, if the time is enough for more of the small ones that a pilot chose than can be repeated.
+// For --tail the pilot has chosen N; sample() renders again with a larger N if the rendered rest is still too large. It
+// also renders again with larger replicates, if the time is enough for more of the small ones that a pilot chose than
+// can be repeated.
 struct Sampled {
     RenderedSeries series;
     SeriesReport report;
@@ -53,7 +54,7 @@ Sampled sample(const Method& method, SamplingSettings& settings, SamplingGoal go
                                     settings.replicate_size};
         const auto keep = [&](const RenderedSeries& so_far, bool is_last) {
             RecordedRender as_sampled = record;
-            as_sampled.replicate_size = so_far.replicate_size;  // smaller where it was stopped early
+            as_sampled.replicate_size = so_far.replicate_size;  // smaller if it was stopped early
             job.saving.keep(as_sampled, job.choice, so_far, is_last);
             if (!job.saving.see || is_last || so_far.convergence.empty()) return;
             job.saving.see([&] {
@@ -123,7 +124,7 @@ BounceSeries render_by_paths(const Method& asked, const RenderJob& job) {
     if (goal.only_pictures) {
         series.warnings.add("sample was not a finite number and was left out", sampled.tally.non_finite_samples());
     } else {
-        settings.replicate_size = sampled.replicate_size;  // smaller where it was stopped early
+        settings.replicate_size = sampled.replicate_size;  // smaller if it was stopped early
         record.health = examine(scene, settings, sampled, *moments);
     }
     return std::move(series);

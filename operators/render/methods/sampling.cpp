@@ -29,7 +29,7 @@ SamplingSettings settings_of(const M& m, const Scene& scene) {
         expect_in_reach(m.direct, scene.emitters);
         settings.walk.direct = m.direct;
     }
-    // Of methods that do not find lights by directions of their own, but in mirrors.
+    // These methods find lights by directions of their own only in mirrors.
     if constexpr (requires { M::direct_light; }) settings.walk.direct = {.direct = M::direct_light};
     if constexpr (requires { m.roulette; }) settings.walk.roulette = m.roulette;
     if constexpr (requires { m.split; }) settings.walk.split = m.split;
@@ -63,8 +63,8 @@ bool set_up(const Method& method, const Scene& scene, int bounces, double memory
     settings.walk.bounces = bounces;
     settings.method = plain_walks();
     settings.allocation = {};
-    // What can still be sampled where a mixture's pilots, or those that distribute samples, are stopped is walks, and as much in
-    // all pixels; the render tells so (as_it_ran() in render_paths.cpp).
+    // If the pilots of a mixture, or of the distribution of samples, are stopped, walks can still be sampled, equally
+    // many in all pixels; the render reports this (as_it_ran() in describe_paths.cpp).
     const bool may_do_without = std::holds_alternative<method::Mixed>(method);
     try {
         std::visit(

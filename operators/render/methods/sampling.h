@@ -9,15 +9,15 @@
 
 namespace neumann {
 
-// Sets everything but the bounces, the rest, the tables and the replicate size. Throws InputError if the method cannot render the
-// scene.
+// Returns the settings without the bounces, the rest, the tables and the replicate size. Throws InputError if the
+// method cannot render the scene.
 SamplingSettings sampling_settings(const Method& method, const Scene& scene, const Plan& plan, std::uint64_t seed);
 
-// Throws InputError if the scene's integrator hides emitters, which a method of this name cannot.
+// Throws InputError if the scene's integrator hides emitters, which the method of this name cannot.
 void expect_visible_emitters(const char* method, const Scene& scene);
 
-// Makes what a method needs before its first sample, and the numbers of samples of --adaptive. Returns whether it needs anything.
-// Throws InputError, and Stopped if `watch` stops it.
+// Prepares a method for its first sample, and the numbers of samples of --adaptive. Returns whether it needs any
+// preparation. Throws InputError, and Stopped if `watch` stops it.
 bool set_up(const Method& method, const Scene& scene, int bounces, double memory, SamplingSettings& settings, Prepared& prepared,
             const Watch& watch = {});
 

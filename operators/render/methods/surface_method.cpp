@@ -14,7 +14,7 @@ public:
     double walks_worth(int, std::span<const double>) const override { return 1.0; }
     Paths paths(const Scene& scene) const override;
     void warn(const Scene& scene, Warnings& warnings) const override;
-    // 1/d² is not, where vertices are on surfaces that touch.
+    // 1/d² is unbounded if vertices are on surfaces that touch.
     bool is_bounded(const SamplingSettings&) const override { return false; }
     std::string why_no_balance() const override { return "by points on surfaces, a path's weight is not what arrives"; }
     bool rays_meet_surfaces() const override { return false; }

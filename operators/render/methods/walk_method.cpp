@@ -10,9 +10,9 @@ namespace neumann::method {
 
 namespace {
 
-constexpr int tree_width = 32;  // of the pilot of --tree, in pixels
-// That use each other's tails with --reuse: more of them cost more rays than they save, in most scenes
-// (tests/bench/bench_reuse.cpp).
+constexpr int tree_width = 32;  // of the film of the pilot for --tree, in pixels
+// The number of consecutive pixels that use each other's tails with --reuse: more of them cost more rays than they
+// save, in most scenes (tests/bench/bench_reuse.cpp).
 constexpr std::uint32_t reusing_pixels = 8;
 
 std::optional<TreeGoal> read_tree(const std::string& text) {

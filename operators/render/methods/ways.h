@@ -23,7 +23,7 @@ struct Ways {
     std::vector<Way> ways;
 };
 
-// Uses the samples and the seed of `settings`, which are of the bidirectional method.
+// `settings` must be those of the bidirectional method; its samples and seed are used.
 Ways render_ways(const Scene& scene, SamplingSettings settings, int bounce, std::uint64_t samples, const Watch& watch);
 
 }  // namespace neumann

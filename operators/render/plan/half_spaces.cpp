@@ -12,7 +12,7 @@ namespace {
 // Limit on the number of planes times vertices, which takes a fraction of a second.
 constexpr double most_work = 1e8;
 
-// max over the shape of n·(p − origin); of an instance a bound.
+// max over the shape of n·(x − origin); for an instance an upper bound.
 double support(const TriangleMesh& mesh, const Vec3& n, const Vec3& origin) {
     double most = -std::numeric_limits<double>::infinity();
     for (const Vec3& v : mesh.vertices) most = std::max(most, glm::dot(n, v - origin));
@@ -67,7 +67,8 @@ bool HalfSpaces::are_within(const Cylinder& c) const {
         c, [&](const Vec3& p) { return glm::length(across(p - c.base, c.axis)); },
         [&](const Vec3& u, const Vec3& v) { return longest(across(u, c.axis), across(v, c.axis)); });
 }
-// `distance`: of a point; `reach`: how far a disc reaches at most beyond its centre.
+// Whether all other shapes are within a ball or cylinder. `distance`: of a point from its centre or axis; `reach`: the
+// distance by which a disc extends at most beyond its centre.
 template <class Round, class Distance, class Reach>
 bool HalfSpaces::all_others(const Round& round, const Distance& distance, const Reach& reach) const {
     const double most = round.radius + rounding_;

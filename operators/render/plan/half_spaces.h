@@ -1,8 +1,9 @@
-// Proves which surfaces cannot see or occlude each other, from half-spaces that contain all surfaces; no ray is cast. If a scene is
-// too large or no proof applies, the answers are "not known" (false).
+// Proves which surfaces cannot see or occlude each other, from half-spaces that contain all surfaces; no ray is cast.
+// If a scene is too large or no proof applies, the answers are "not known" (false).
 //
-// A surface that rises above a plane by up to 2^-32 of the scene's radius counts as being on it. This is far more than the rounding
-// error of coordinates in double, and a thousandth of the offset at which float rays start from a surface, so no ray could tell.
+// A surface that rises above a plane by up to 2^-32 of the scene's radius counts as lying in it. This is far more than
+// the rounding error of coordinates in double, and a thousandth of the offset at which float rays start from a surface,
+// so no ray can tell the difference.
 #pragma once
 
 #include "core/geometry/geometry.h"
@@ -13,8 +14,8 @@ struct ConvexBody {
     // All surfaces lie on the boundary of one convex body. Two points that are not in one of its planes then see each other,
     // because the segment between them lies inside the body.
     bool found = false;
-    bool fronts_face_inwards = false;  // the fronts of all surfaces do
-    bool is_closed = false;            // from inside, surfaces are seen in all directions, unless some surfaces overlap
+    bool fronts_face_inwards = false;  // whether the fronts of all surfaces do
+    bool is_closed = false;            // whether surfaces are seen in all directions from inside, unless some surfaces overlap
 };
 
 // Keeps a reference to the geometry.

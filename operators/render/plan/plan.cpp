@@ -49,7 +49,7 @@ PlanPart left_out(const std::string& part, const std::string& reason, const std:
     return {part, false, reason, saves, decision};
 }
 
-// What it saves to leave out parts that run only on surfaces that have them.
+// The saving text for parts that run only on surfaces that have them.
 constexpr const char* nothing_more = "nothing: it is met only where it stands";
 
 PlanPart counted(const std::string& part, std::size_t sides, const Look& at) {
@@ -136,7 +136,7 @@ PlanPart angular_unknowns(const Look& at) {
                     "15 of the 16 unknowns at least of such a side");
 }
 
-// The list of cases: to add one, write what it looks for above and name it here.
+// The list of cases. To add one, write its function above and name it here.
 using Case = PlanPart (*)(const Look&);
 constexpr Case cases[] = {channels,     textures,    smooth,         masks,        specular,        rough,
                           transmission, environment, delta_lights,   light_choice, questions,       shadow_rays,

@@ -1,7 +1,6 @@
-// Which parts of the program a scene needs, found from the scene before anything runs. Parts that it does not need are left out.
-// This does not change the expected picture; except for LeftOut::questions, it changes no bit of the picture.
-//
-// The cases are listed in plan.cpp.
+// The parts of the program that a scene needs, found from the scene before anything runs. Other parts are left out.
+// This does not change the expected picture; except for LeftOut::questions, it changes no bit of the picture. The cases
+// are listed in plan.cpp.
 #pragma once
 
 #include "core/scene/scene.h"
@@ -15,10 +14,10 @@ namespace neumann {
 
 struct PlanPart {
     std::string part;    // the name of the part
-    bool kept;           // the scene needs it, or it is not proven unnecessary
+    bool kept;           // whether the scene needs it, or it is not proven unnecessary
     std::string reason;  // why it is kept or left out
-    std::string saves;   // what leaving it out saves; empty if it is kept
-    // The flag of LeftOut that walks need for this part, if any.
+    std::string saves;   // the saving if it is left out; empty if it is kept
+    // The flag of LeftOut by which walks leave this part out, if any.
     bool LeftOut::*decision = nullptr;
 };
 

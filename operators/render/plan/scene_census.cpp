@@ -42,7 +42,7 @@ SceneCensus::SceneCensus(const Scene& scene)
         smooth += is_smooth;
     }
     const Emitters& emitters = scene.emitters;
-    // A picture's density is this one nowhere but by chance.
+    // The density of an environment picture has this value in both directions only by chance.
     has_constant_environment = has_environment && emitters.environment_pdf({0.0, 0.0, 1.0}) == 0.25 * inv_pi &&
                                emitters.environment_pdf({1.0, 0.0, 0.0}) == 0.25 * inv_pi;
     shines_alike = shapes > 0 && light_shapes == shapes && emitters.shapes_shine_evenly() && !has_delta_lights &&

@@ -1,4 +1,4 @@
-// Counts of what is in a scene.
+// Counts the contents of a scene.
 #pragma once
 
 #include "core/scene/scene.h"
@@ -15,7 +15,7 @@ struct SceneCensus {
     std::size_t light_shapes = 0;  // shapes that emit
     bool has_environment = false, has_constant_environment = false, has_delta_lights = false;
     bool is_grey = false;
-    // All shapes emit the same constant radiance, and so does the environment, if there is one.
+    // Whether all shapes emit the same constant radiance, and the environment too, if there is one.
     bool shines_alike = false;
 };
 

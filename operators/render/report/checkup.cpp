@@ -12,7 +12,7 @@ namespace neumann {
 
 namespace {
 
-constexpr std::uint64_t checkup_stream = 0x636865636b7570ull;  // another seed than the pictures'
+constexpr std::uint64_t checkup_stream = 0x636865636b7570ull;  // differs from the seed of the pictures
 constexpr std::uint64_t most_groups = 256, fewest_groups = 16, vertices = 1u << 20;
 constexpr int most_bounces = 64;
 constexpr std::size_t self_hits_kept = 4;
@@ -67,7 +67,7 @@ struct GroupCheckup : PathObserver {
 
 bool is_self_hit(const SurfacePoint& from, const SurfacePoint& to) {
     const bool parallel = 1.0 - std::abs(glm::dot(from.normal, to.normal)) <= 1e-12;
-    // Hits close by were computed in double.
+    // Close hits were computed in double.
     const double rounding = from.close ? double_rounding(from.position, largest_component(to.position)) : from.error + to.error;
     return parallel && std::abs(glm::dot(from.normal, to.position - from.position)) <= rounding;
 }
@@ -80,7 +80,7 @@ double Checkup::self_hits_at_most() const {
 
 namespace {
 
-// What was seen of some paths; `camera` and `light` hold an observation of each group.
+// The findings of some paths; `camera` and `light` hold an observation of each group.
 struct Inspection {
     std::uint64_t paths = 0, rays = 0;
     std::vector<SelfHit> self_hits;
@@ -134,7 +134,7 @@ Inspection inspect(const Scene& scene, const PictureSampler& sampler, std::uint6
     return result;
 }
 
-// Of the bounces that all have.
+// The balance of the bounces that all observations have.
 std::optional<EnergyBalance> balance_of(std::vector<std::vector<EnergyShares>> observations) {
     if (observations.empty()) return std::nullopt;
     const std::size_t length = std::ranges::min(observations, {}, &std::vector<EnergyShares>::size).size();

@@ -1,4 +1,4 @@
-// A render's check-up: traces some of its paths again and inspects every ray.
+// The check-up of a render traces some of its paths again and inspects every ray.
 #pragma once
 
 #include "operators/render/from_paths/energy_balance.h"
@@ -22,19 +22,21 @@ struct SelfHit {
 };
 
 struct Checkup {
-    std::uint64_t paths = 0, rays = 0;  // inspected; only rays that leave a surface to find the next hit are counted
+    // inspected ones; only rays that leave a surface to find the next hit are counted
+    std::uint64_t paths = 0, rays = 0;
     std::uint64_t self_hits = 0;
     std::vector<SelfHit> first_self_hits;  // in order of bounce and sample
     // Upper bound, with 95% confidence, on the fraction of rays that hit their own surface (Poisson).
     double self_hits_at_most() const;
 
-    // Of the subpaths from the camera and from the lights; missing if the method's path weights are not energy.
+    // The energy balances of the subpaths from the camera and from the lights; missing if the method's path weights are
+    // not energy.
     std::optional<EnergyBalance> camera, light;
 };
 
-// Checks about 16,000 paths of a render with `samples` samples per pixel, spread evenly over pixels and samples; fewer if they are
-// long. Where paths are chains: of those from which they start. With a mixture: of each method. Returns nothing if the method's
-// why_no_checkup() says why. The same bits on any number of threads.
+// Checks about 16,000 paths of a render with `samples` samples per pixel, spread evenly over pixels and samples; fewer
+// if they are long. For chains, it checks the paths from which they start; for a mixture, paths of each method. Returns
+// nothing if the method's why_no_checkup() gives a reason. The same bits on any number of threads.
 std::optional<Checkup> check_up(const Scene& scene, const PictureSampler& sampler, std::uint64_t samples);
 
 }  // namespace neumann

@@ -6,8 +6,8 @@ namespace neumann {
 
 namespace {
 
-// Where few samples are taken, ordinary ones make half of a dark pixel, too. One that is no outlier does not make as much as the
-// picture's mean of its pixel once there are so many.
+// With few samples, even ordinary ones make half of a dark pixel. A sample that is no outlier contributes less than the
+// picture's mean to its pixel once there are this many samples.
 constexpr double samples_of_ordinary_noise = 256.0;
 
 // The share of one sample's value in the sum of a pixel's samples, which is `samples` times the mean.
@@ -55,7 +55,7 @@ Health examine(const Scene& scene, const SamplingSettings& settings, const Rende
         }
         for (const LargestSamples::Sample& sample : series.tally.largest[q].standing_out()) {
             const std::uint32_t pixel = sample.place.pixel;
-            // Paths from lights are as many for all pixels.
+            // All pixels have equally many paths from lights.
             const double part = sample.place.name.pixel == pixel
                                     ? static_cast<double>(layout.size(pixel)) / static_cast<double>(series.replicate_size)
                                     : 1.0,
@@ -73,7 +73,8 @@ Health examine(const Scene& scene, const SamplingSettings& settings, const Rende
     }
     const PictureSampler sampler(scene, settings);
     for (std::size_t q = 0; q < quantities; ++q)
-        if (SampleHealth& bounce = health.bounces[q]; bounce.fireflies > 0 && series.merged.empty())  // else of several seeds
+        // merged renders have several seeds
+        if (SampleHealth& bounce = health.bounces[q]; bounce.fireflies > 0 && series.merged.empty())
             bounce.remedies = remedies(scene, sampler, bounce.largest->sample.place.name, q);
     health.first_non_finite = series.tally.non_finite;
     const std::uint64_t of_this_seed =

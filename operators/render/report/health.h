@@ -1,5 +1,5 @@
-// What is wrong with a render, and where: samples that are not finite, fireflies, rays that hit the surface they leave, energy that
-// is not conserved.
+// The defects of a render, and where they are: samples that are not finite, fireflies, rays that hit the surface they
+// leave, energy that is not conserved.
 #pragma once
 
 #include "operators/render/from_paths/rendered_series.h"
@@ -28,12 +28,12 @@ struct SampleHealth {
     // The sample with the largest share of its pixel among the 1000 largest samples of the picture; fireflies are preferred. None
     // if many samples are alike.
     std::optional<LargestShare> largest;
-    // Number of these 1000 samples that are fireflies: the sample alone is more than half of its pixel's sum of all bounces, adds
-    // more than the picture's mean to its pixel, also if there were 256 samples, and adds more than a quarter of the brightest
-    // pixel of this bounce (which samples at the edge of something bright do not). Bounce 0 and renders with fewer than 16 samples
-    // per pixel are not judged, because such samples are usual there.
+    // The number of these 1000 samples that are fireflies: the sample alone is more than half of its pixel's sum of all
+    // bounces, adds more than the picture's mean to its pixel even if there were 256 samples, and adds more than a
+    // quarter of the brightest pixel of this bounce (which samples at the edge of something bright do not). Bounce 0
+    // and renders with fewer than 16 samples per pixel are not judged, because such samples are usual there.
     std::uint64_t fireflies = 0;
-    // If there are fireflies: what else to try against the one in `largest`.
+    // If there are fireflies: the remedies to try against the one in `largest`.
     std::vector<Remedy> remedies = {};
 };
 constexpr std::uint64_t fewest_samples_to_judge = 16;
@@ -42,7 +42,7 @@ struct Health {
     std::vector<SampleHealth> bounces;  // 0 … N and the rest
     std::vector<NonFiniteSample> first_non_finite;
     std::optional<Checkup> checkup;
-    std::string why_no_checkup, why_no_balance;  // if there is none
+    std::string why_no_checkup, why_no_balance;  // the reason in words, if there is none
 
     std::uint64_t non_finite() const;
     std::uint64_t overflowed() const;
@@ -50,7 +50,7 @@ struct Health {
     bool is_sick() const;
 };
 
-// `result`: the result of the series' moments. Traces some paths again (checkup.h).
+// Examines the render; traces some paths again (checkup.h). `result`: the result of the series' moments.
 Health examine(const Scene& scene, const SamplingSettings& settings, const RenderedSeries& series,
                const SeriesMoments::Result& result);
 

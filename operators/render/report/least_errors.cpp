@@ -25,7 +25,7 @@ Rgb times(const Rgb& a, const Rgb& b) {
     return product;
 }
 
-// Upper bounds of what is measured of K^i Le, for each bounce, and of the rest, per channel.
+// Upper bounds on the measured value of K^i Le, for each bounce, and of the rest, per channel.
 std::vector<Rgb> bounds(const Scene& scene, const SamplingSettings& settings) {
     const Rgb albedo = scene.materials.largest_albedo(),
               emitted = times(scene.emitters.largest_radiance(), Rgb(scene.camera.largest_response()));
@@ -120,7 +120,7 @@ public:
     }
 
 private:
-    // Of a pixel, as a part of the mean number. Paths from lights are as many for all.
+    // The number of samples of a pixel relative to the mean number. Paths from lights are equally many for all pixels.
     double part_of_samples(std::size_t pixel) const {
         const double part = layout_.size(static_cast<std::uint32_t>(pixel)) / static_cast<double>(size_);
         return method_->splats() ? std::min(part, 1.0) : part;
@@ -133,7 +133,7 @@ private:
         for_neighbourhood(result_->width(), result_->height(), pixel, [&](std::size_t other) { all.merge(range(other, q)); });
         return Rgb(difference(all, 0), difference(all, 1), difference(all, 2));
     }
-    // The half width of the mean's interval at least.
+    // The least half width of the mean's interval.
     double error_of_mean(std::size_t q, double samples) const {
         SampleRange all;
         for (std::size_t pixel = 0; pixel < result_->pixels(); ++pixel) all.merge(range(pixel, q));
@@ -141,9 +141,9 @@ private:
         const MeanWithError mean = result_->mean_of_term(q);
         return least_half_width(d, samples, mean.standard_error <= agreement * std::abs(mean.mean));
     }
-    // All states of a bounce's chains bring the same, and a chain stays somewhere for a while: such a stay is an event, which
-    // weighs about the same everywhere in a picture (within a factor of four over the blocks of door-ajar, whose means go from 1e-6
-    // to 0.04).
+    // All states of a bounce's chains bring the same amount, and a chain stays at a state for a while. Such a stay is
+    // an event with about the same weight everywhere in a picture, even if the means of its blocks differ by orders of
+    // magnitude.
     static Rgb weight_in_picture(const Estimate& term) {
         Rgb weight(0.0);
         for (int c = 0; c < 3; ++c) {
@@ -153,7 +153,7 @@ private:
         }
         return weight;
     }
-    // Paths that bring much are events, too, such as those that come to a small lamp by a mirror.
+    // Paths that bring much, such as those that reach a small lamp by a mirror, are events, too.
     Rgb weight_nearby(const Estimate& term, std::size_t pixel, const Rgb& in_picture) const {
         Rgb weight(0.0);
         for (int c = 0; c < 3; ++c) {
@@ -167,19 +167,20 @@ private:
         const double error = term.standard_error.pixels[pixel][c];
         events.add(term.mean.pixels[pixel][c], error * error);
     }
-    // D if all samples of the pixel and its neighbours are 0. `unmet`: if all of the picture are.
+    // D if all samples of the pixel and its neighbours are 0. `unmet`: D if all samples of the picture are 0.
     double difference_elsewhere(std::size_t pixel, std::size_t q, int c, double unmet) const {
         if (bounds_[q][c] == 0.0) return 0.0;
         if (q == 0) return lights_.pixels[pixel][c] > 0.0 && method_->is_boundless(q) ? infinity : lights_.pixels[pixel][c];
         if (albedo_.pixels[pixel][c] == 0.0) return 0.0;
         return met_[c] > 0.0 ? met_[c] : unmet;
     }
-    // What the quantity can be at most in a pixel.
+    // The largest value that the quantity can have in a pixel.
     double largest_mean(std::size_t pixel, std::size_t q, int c) const {
         return q == 0 && method_->is_boundless(q) ? lights_.pixels[pixel][c] : bounds_[q][c];
     }
-    // What a sample of the quantity may bring if none of the picture has brought anything: as much as one of an earlier bounce, or
-    // at most what the bounds leave. Those that roulette lets go on bring more; who goes on into the rest brings all of it, at 1/p.
+    // The most that a sample of the quantity may bring if no sample of the picture has brought anything: as much as one
+    // of an earlier bounce, or at most the bounds. Paths that survive roulette bring more; one that goes on into the
+    // rest brings all of it, times 1/p.
     Rgb brought_by_unmet(std::size_t q) const {
         if (method_->is_boundless(q)) return Rgb(infinity);
         const bool is_rest = q + 1 == quantities_;
@@ -205,9 +206,9 @@ private:
         for (int c = 0; c < 3; ++c)
             if (met_[c] > 0.0) largest_[c] = met_[c];
     }
-    // Finds the albedo seen in those pixels, and their neighbours, in which some bounce is 0; and the light seen there, if paths
-    // from the camera have not looked for it, for lights that are dim are not among the points on lights, which are chosen by
-    // power.
+    // Finds the albedo seen in those pixels, and their neighbours, in which some bounce is 0. If no paths start at the
+    // camera, it also finds the light seen there, because dim lights are not among the points on lights, which are
+    // chosen by power.
     void find_albedo(std::uint64_t seed) {
         const std::size_t pixels = result_->pixels();
         const int width = result_->width(), height = result_->height();
@@ -247,7 +248,8 @@ private:
     Roulette roulette_;
     double rest_probability_;
     std::vector<Rgb> bounds_;
-    Rgb met_{0.0}, largest_{0.0};  // the largest sample of the quantity in the picture; of it, or else of an earlier one
+    // the largest sample in the picture of this quantity; and of this or else of an earlier one
+    Rgb met_{0.0}, largest_{0.0};
     Image lights_, albedo_;
 };
 
@@ -265,7 +267,7 @@ LeastErrors::LeastErrors(const Scene& scene, const SamplingSettings& settings, c
     if (!std::isfinite(t) || series.moments.ranges().of.empty()) return;
     Look look(scene, settings, series.moments.ranges(), result);
     for (std::size_t q = 0; q < terms_.size(); ++q) {
-        // Samples of a pass share its photons or records, and those of a chain its states: they are one.
+        // All samples of a pass share its photons or records, and those of a chain its states, so they count as one.
         const bool is_shared = (settings.method->two_radii() && q > 1) || (settings.method->has_chains() && q > 0);
         auto found = look.look(q, static_cast<double>(is_shared ? series.moments.replicates() : series.samples), t);
         terms_[q] = std::move(found.errors);

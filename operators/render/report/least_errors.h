@@ -1,18 +1,19 @@
-// Lower bounds on standard errors. A pixel may miss a sliver of light that none of its samples met, and replicates may agree by
-// chance, so the standard error of a pixel is at least
+// Lower bounds on standard errors. A pixel may miss a sliver of light that none of its samples met, and replicates may
+// agree by chance, so the standard error of a pixel is at least h/t, where t belongs to the 95% interval and h is the
+// larger of
 //
-//     h/t,  h as one sample more or less leaves open (one_sample_more.h); where replicates do not agree, not in bounces from 2 on
-//     by
-//           photons and records, whose samples are means of many
-//           h as few events leave open (few_events.h), if that is more, where no sample is negative: a path that brings much is an
-//           event, and so is a chain's stay
+//     what one sample more or less leaves open (one_sample_more.h); if replicates do not agree, not in bounces from 2 on by photons
+//     and records, whose samples are means of many
 //
-// with n samples per pixel, t of the 95% interval, and D the largest minus the smallest sample of the pixel and its eight
-// neighbours. If these are all 0 but light may be there, D is the largest sample of this bounce in the picture; failing that, of an
-// earlier bounce, or ‖Le‖∞ a^i, more for who survives roulette, or no bound at all (what a path of `light` or a photon brings; and
-// a point on a light whose weight directions do not share, if no earlier bounce but Le has met anything). h ≤ ‖K^i Le‖∞ ≤ ‖Le‖∞
-// a^i, where a is the largest albedo. The bound is 0 where it is known that nothing is there: channels without light or albedo,
-// bounces that the plan proves empty, and pixels around which no ray meets a reflecting surface.
+//     what few events leave open (few_events.h), if no sample is negative: a path that brings much is an event, and so is a chain's
+//     stay
+//
+// D is the largest minus the smallest sample of the pixel and its eight neighbours. If these are all 0 but light may be
+// there, D is the largest sample of this bounce in the picture; failing that, of an earlier bounce, or ‖Le‖∞ a^i, where
+// a is the largest albedo, and more for paths that survive roulette. There is no bound at all for a path of `light` or
+// a photon, and for a point on a light whose weight directions do not share, if no earlier bounce but Le has met
+// anything. h ≤ ‖K^i Le‖∞ ≤ ‖Le‖∞ a^i. The bound is 0 where it is known that nothing is there: channels without light
+// or albedo, bounces that the plan proves empty, and pixels around which no ray meets a reflecting surface.
 #pragma once
 
 #include "operators/render/from_paths/rendered_series.h"
@@ -34,8 +35,8 @@ public:
     // If no sample of the whole picture met quantity i: an upper bound, with 95% confidence, on its mean over pixels and channels;
     // infinite if there is no bound. Otherwise, or if nothing is there: 0.
     double mean_at_most(std::size_t i) const { return means_at_most_[i]; }
-    // The least standard error of the mean over pixels and channels: one sample more or less of the whole picture. 0 where pixels
-    // share their samples.
+    // The least standard error of the mean over pixels and channels, from one sample more or less in the whole picture.
+    // 0 if pixels share their samples.
     double of_mean(std::size_t i) const { return of_means_[i]; }
 
 private:

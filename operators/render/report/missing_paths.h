@@ -1,4 +1,4 @@
-// How much light is missing of a method that cannot make all paths.
+// Estimates the light that a method misses because it cannot make all paths.
 #pragma once
 
 #include "operators/render/from_paths/pilot.h"
@@ -6,7 +6,8 @@
 
 namespace neumann {
 
-// Sets what is missing of each bounce: mean(pilot) − mean(picture), which are independent, for bounces up to Pilot::bounces().
+// Sets the missing light of each bounce: mean(pilot) − mean(picture), which are independent, for bounces up to
+// Pilot::bounces().
 void report_missing(SeriesReport& report, const Pilot& pilot);
 
 }  // namespace neumann

@@ -20,7 +20,7 @@ struct NoOne : PathObserver {
     void step(std::uint32_t, const PathStep&) override {}
 };
 
-// What all samples of a pixel in a replicate bring to it, and their mean.
+// All samples of a pixel in a replicate, and their mean.
 struct OfReplicate {
     std::vector<Rgb> samples, mean;
 };
@@ -74,7 +74,7 @@ std::vector<std::size_t> PixelHistory::largest(std::size_t most) const {
 
 PixelHistory history_of_pixel(std::span<const ReplicatesOf> replicates, std::uint32_t pixel) {
     PixelHistory history;
-    std::optional<SeriesMoments> earlier;  // of the seeds before
+    std::optional<SeriesMoments> earlier;  // the moments of the earlier seeds
     std::uint64_t n = 0, samples = 0, all = 0;
     for (const ReplicatesOf& of : replicates) all += of.count;
     for (const auto& [sampler, first, count] : replicates) {

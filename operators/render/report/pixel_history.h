@@ -1,7 +1,7 @@
-// How the mean of one pixel came about: its samples one by one, and what the first of them told.
+// The history of the mean of one pixel: its samples one by one, and the estimates from the first n replicates.
 //
-// After n replicates the mean is that of n independent estimates, with the standard error √(M2 / (n (n − 1))) of their spread, as
-// in the picture (series_moments.h). After all of them it has the picture's bits.
+// The estimate after n replicates is their mean, with the standard error √(M2 / (n (n − 1))) of their spread, as in the
+// picture (series_moments.h). After all replicates it has the picture's bits.
 #pragma once
 
 #include "operators/render/from_paths/picture_sampler.h"
@@ -13,7 +13,7 @@
 
 namespace neumann {
 
-// Replicates of a sampler; those of several seeds come one after the other.
+// Replicates of a sampler. Those of several seeds follow one another.
 struct ReplicatesOf {
     const PictureSampler& sampler;
     std::uint64_t first, count;
@@ -29,13 +29,13 @@ struct PixelHistory {
         std::vector<Mean> terms, sums;  // bounces 0 … N and the rest
     };
     std::vector<Point> points;  // after 1, 2, 4, … replicates, and after all
-    std::vector<Rgb> samples;   // sample by sample, bounces 0 … N and the rest of each
-    std::size_t terms = 0;      // of a sample
+    std::vector<Rgb> samples;   // sample by sample, for each sample bounces 0 … N and the rest
+    std::size_t terms = 0;      // number of quantities of a sample
 
     std::size_t count() const { return terms == 0 ? 0 : samples.size() / terms; }
-    // The luminance of all that a sample brings, over that of all samples; 0 if there is no light.
+    // The luminance of a sample, summed over its terms, as a part of that of all samples; 0 if there is no light.
     double part(std::size_t sample) const;
-    // The samples that bring most, the largest first.
+    // The samples with the largest parts, the largest first.
     std::vector<std::size_t> largest(std::size_t count) const;
 };
 

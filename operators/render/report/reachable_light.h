@@ -1,4 +1,4 @@
-// Where there may be light that the samples missed.
+// Finds where there may be light that the samples missed.
 #pragma once
 
 #include "core/image/image.h"
@@ -9,8 +9,9 @@
 
 namespace neumann {
 
-// For each `wanted` pixel, the largest albedo of the surfaces that some rays through it hit, and the largest measured value of the
-// light that comes along them; 0 if none reflects, and if none brings light. The same bits on any number of threads.
+// For each `wanted` pixel, the largest albedo of the surfaces that some rays through it hit, and the largest measured
+// value of the light along these rays; 0 if no surface reflects or no ray finds light. The same bits on any number of
+// threads.
 struct SeenByRays {
     Image albedo, emitted;
 };

@@ -8,8 +8,8 @@ namespace neumann {
 
 namespace {
 
-// The reflections of the path with the largest contribution to a quantity, from the camera on: for each, whether it is by a delta
-// lobe. The last one hit or sampled the light.
+// The reflections of the path with the largest contribution to a quantity, from the camera on: for each, whether it is
+// by a delta lobe. The last one hit or sampled the light.
 std::vector<bool> deltas_of_largest(const Replay& replay, std::size_t quantity) {
     std::vector<bool> path, largest;
     double most = 0.0;
@@ -37,7 +37,8 @@ std::vector<Remedy> remedies(const Scene& scene, const PictureSampler& sampler, 
     if (auto of_method = settings.method->remedies(scene, rest)) return std::move(*of_method);
     const std::vector<bool> is_delta = deltas_of_largest(replay(sampler, name), quantity);
     const auto scatters = [](bool delta) { return !delta; };
-    const auto last = std::find_if(is_delta.rbegin(), is_delta.rend(), scatters).base();  // after the last that is not a delta
+    // behind the last that is not a delta
+    const auto last = std::find_if(is_delta.rbegin(), is_delta.rend(), scatters).base();
     if (last == is_delta.begin()) return {};
     const bool is_asked = settings.walk.direct.direct == DirectLight::mis;
     if (last == is_delta.end() && !is_asked) return {Remedy::ask_lights};

@@ -1,5 +1,5 @@
-// What else to try against a firefly. The answer depends on which reflections of its path are by a delta lobe (mirror, glass,
-// hole), where no other strategy can make the path.
+// Remedies against a firefly. They depend on which reflections of its path are by a delta lobe (mirror, glass, hole),
+// where no other strategy can make the path.
 #pragma once
 
 #include "operators/render/from_paths/picture_sampler.h"

@@ -262,7 +262,7 @@ std::vector<Rgb> CacheSampler::retrace(std::uint64_t replicate, std::uint32_t fi
 
 namespace {
 
-// Reports the ray of a record. What it finds is a part of what was found where the record was read.
+// Reports the ray of a record. The light that it finds is a part of the light that was found where the record was read.
 class RecordRay : public PathObserver {
 public:
     explicit RecordRay(PathObserver& observer) : observer_(observer) {}

@@ -23,7 +23,7 @@ double SeriesReport::tail_fraction() const {
 
 namespace {
 
-// Of what the sensor measures.
+// A bound on the measured value of Σ_{k>i} K^k Le.
 double bound_beyond(const Scene& scene, std::size_t i) {
     return scene.camera.largest_response() *
            tail_bound(scene.materials.largest_albedo(), scene.emitters.largest_radiance(), static_cast<int>(i));

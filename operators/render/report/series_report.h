@@ -11,13 +11,14 @@
 namespace neumann {
 
 struct BounceReport {
-    MeanWithError mean;              // radiance of K^i Le, over pixels and channels
-    std::optional<double> ratio;     // mean divided by that of the previous bounce, an estimate; none if the previous mean is zero
+    MeanWithError mean;  // radiance of K^i Le, over pixels and channels
+    // mean divided by that of the previous bounce, an estimate; none if the previous mean is zero
+    std::optional<double> ratio;
     double bound;                    // a-priori bound on ‖Σ_{k>i} K^k Le‖∞; infinite if there is none
     bool infinite_variance = false;  // then `mean` has no interval
     bool unmet = false;              // no sample met it, and `mean` has an upper bound as its interval (least_errors.h)
-    // The samples are bounded, so the variance is finite, but the largest samples have a heavy tail: they are rare and make much of
-    // the mean, so the interval may be too short.
+    // The samples are bounded, so the variance is finite, but the largest samples have a heavy tail: they are rare and
+    // make up much of the mean, so the interval may be too short.
     bool rare_large_samples = false;
     std::optional<TailIndex> tail;
     std::uint64_t rays = 0;
@@ -35,7 +36,7 @@ enum class RestVerdict {
 struct SeriesReport {
     bool importance = false;  // the series is K*^i We, m⁻²·sr⁻¹, in place of K^i Le; it has no bound, as ‖We‖∞ is infinite
     std::vector<BounceReport> bounces;
-    MeanWithError sum;  // of Σ_{k≤N}
+    MeanWithError sum;  // Σ_{k≤N}
     std::optional<DiscretisationReport> sum_discretisation;
     RestVerdict rest_verdict = RestVerdict::measured;
     MeanWithError rest;
@@ -48,7 +49,7 @@ struct SeriesReport {
 };
 
 SeriesReport report_series(const Scene& scene, const RenderedSeries& series, RestVerdict rest_verdict);
-// `discretisation`: of the terms, and of their sum as the last.
+// `discretisation`: for each term, and last for their sum.
 SeriesReport report_series(const Scene& scene, const FieldPictures& series,
                            const std::vector<DiscretisationReport>& discretisation);
 

@@ -12,7 +12,7 @@ namespace neumann {
 
 namespace {
 
-// Upper bounds of what the pictures show of K^i Le, bounce by bounce.
+// Upper bounds on the value of K^i Le in the pictures, bounce by bounce.
 class LimitOfTerm {
 public:
     LimitOfTerm(const Scene& scene, const FieldPictures& pictures, const FieldSettings& settings)
@@ -33,7 +33,7 @@ public:
         for (int c = 0; c < 3; ++c) limit_[c] = limit_[c] == 0.0 || albedo_[c] == 0.0 ? 0.0 : limit_[c] * albedo_[c];
         if (bounce_ > 1 && ends_) limit_ = Rgb(0.0);
     }
-    // Means over pixels and channels: of this bounce, and of this and all later ones.
+    // The bounds on means over pixels and channels: of this bounce, and of this and all later ones.
     double of_term() const {
         return bounce_ == 0 ? mean([&](std::size_t pixel, int c) { return lights_.pixels[pixel][c]; }) : on_surfaces(limit_);
     }
@@ -43,7 +43,8 @@ public:
             if (all[c] > 0.0) all[c] = albedo_[c] < 1.0 ? all[c] / (1.0 - albedo_[c]) : std::numeric_limits<double>::infinity();
         return on_surfaces(all);
     }
-    // The bounce is there: later ones have no more than the largest that is seen of it. A path by links may bring any power.
+    // Call if the bounce was met: later ones have no more than its largest visible value. (A path by links may bring
+    // any power.)
     void look() {
         if (!is_sampled_ || bounce_ == 0) return;
         Rgb largest(0.0);
@@ -69,9 +70,9 @@ private:
     Rgb albedo_, limit_;
     Image lights_;
     SeenByRays seen_;
-    bool ends_;          // no surface is seen from another
-    bool is_sampled_;    // by rays and by points on lights, from sides of one cell
-    double part_ = 1.0;  // of these, that could have met something
+    bool ends_;          // whether no surface is seen from another
+    bool is_sampled_;    // whether fields are sampled by rays and by points on lights, from sides of one cell
+    double part_ = 1.0;  // the largest part of these rays that could have met something
 };
 
 bool is_unknown(const MeanWithError& mean) { return mean.mean == 0.0 && mean.standard_error == 0.0; }

@@ -1,11 +1,13 @@
-// What fields have not met. Where neither the rays of T nor paths from the lights met anything of a bounce, its picture is 0 ± 0,
-// which says nothing: a small lamp in a mirror is met seldom. As with walks (least_errors.h),
+// Intervals for bounces that fields have not met. If neither the rays of T nor paths from the lights met anything of a
+// bounce, its picture is 0 ± 0, which says nothing: a small lamp in a mirror is seldom met. As with walks
+// (least_errors.h), the interval is then
 //
 //     K^i Le ≤ ‖Le‖∞ a^i,   a the largest albedo,
 //
-// is then its interval, in pixels where the camera sees a surface that reflects; in bounce 0, what it sees of points on lights. If
-// all sides have one cell and no light comes by links, then up to 3/n of a side's n rays could have met that (95%), and a bounce
-// after one that was met has at most a times the largest pixel of that, which is a bound where point lights have none.
+// in pixels where the camera sees a surface that reflects; in bounce 0 it is the light of points on lights that the
+// camera sees. If all sides have one cell and no light comes by links, at most 3/n of a side's n rays could have met
+// light (95%), and a bounce after one that was met has at most a times the largest pixel of that one, which is a bound
+// even for point lights.
 #pragma once
 
 #include "operators/render/report/series_report.h"
