@@ -17,9 +17,10 @@ namespace neumann {
 
 namespace {
 
-// A mistake is likelier than none by so much, as −2 log of the likelihood.
+// A mistake must be likelier than none by this, as −2 log of the likelihood.
 constexpr double strong_evidence = 40.0;
-// Two pictures of one renderer whose chance to differ so is less are further apart than their noise.
+// Two pictures of one renderer are further apart than their noise if their difference has a smaller probability than
+// this.
 constexpr double agreement_of_seeds = 0.05;
 constexpr std::size_t places_a_term = 3;
 constexpr std::uint64_t most_replayed = 64;  // samples of a pixel, from which a path is chosen
@@ -35,7 +36,7 @@ void expect_finite(const DepthPicture& picture) {
 void check(const std::vector<DepthPicture>& pictures, std::optional<Counting> counting) {
     if (pictures.empty()) throw InputError("there are no pictures to compare with");
     for (const DepthPicture& picture : pictures) expect_finite(picture);
-    terms_of(pictures, counting.value_or(Counting::pbrt));  // sizes and numbers
+    terms_of(pictures, counting.value_or(Counting::pbrt));  // throws if sizes or numbers are wrong
 }
 
 Scene on_their_film(const Scene& scene, const Image& picture) {
@@ -72,7 +73,7 @@ PictureNoise sum_of(const BounceSeries& ours, const BounceRange& bounces) {
     return sum;
 }
 
-// What samples that agree leave open all the same (PixelEstimate::least_error), squared.
+// The squared error that samples leave open even if they agree (PixelEstimate::least_error).
 Image left_open(const BounceSeries& ours, const BounceRange& bounces) {
     Image sum;
     for (int i = bounces.first; i <= bounces.last; ++i) {
@@ -84,7 +85,7 @@ Image left_open(const BounceSeries& ours, const BounceRange& bounces) {
     return sum;
 }
 
-// Not below what few samples leave open in each pixel; `times`: as many times ours.
+// The variance, but at least what few samples leave open in each pixel; `times`: their variance in units of ours.
 Image believed_one_by_one(Image variance, const ComparedTerm& term, double times) {
     for (std::size_t p = 0; p < variance.pixels.size(); ++p)
         variance.pixels[p] = glm::max(variance.pixels[p], term.left_open.pixels[p] * times);
@@ -150,7 +151,8 @@ private:
         if (misfit < close && misfit_of_means(pictures, result_.counting, sums) > clearly * misfit + close) result_.told = likely;
     }
 
-    // The number by which ours is multiplied, from the picture that has least; what is wrong only adds to it.
+    // Finds the number by which our variance is multiplied, from the picture with the smallest one, because mistakes
+    // only increase it.
     void judge_noise(const std::vector<DepthPicture>& pictures, const BounceSeries& ours) {
         for (const DepthPicture& p : pictures) {
             if (p.variance) continue;
@@ -213,9 +215,9 @@ private:
         }
     }
 
-    // A term that is further apart from ours than chance explains. It differs if some mistake is clearly likelier than none, and
-    // either one explains the difference, or their pixels are known not to have shared their errors. The term after it is explained
-    // with it.
+    // Judges a term that is further apart from ours than chance explains. It differs if some mistake is clearly
+    // likelier than none, and either the mistake explains the difference, or their pixels are known not to have shared
+    // their errors. The term after it is explained together with it.
     void look_into(TermVerdict& v, std::size_t i, const SureCause& sure) {
         const ComparedTerm& c = compared_[i];
         const auto from = compared_.begin() + static_cast<std::ptrdiff_t>(i);
@@ -234,7 +236,7 @@ private:
         }
     }
 
-    // Their two pictures, if they are not the same.
+    // Their two pictures, unless they are the same.
     static std::optional<std::pair<PictureNoise, PictureNoise>> two_seeds(const ComparedTerm& c) {
         if (!c.half_difference || is_black_everywhere(*c.half_difference)) return std::nullopt;
         std::pair<PictureNoise, PictureNoise> two(c.theirs, c.theirs);
@@ -245,7 +247,7 @@ private:
         return two;
     }
 
-    // Whether their pixels have random numbers of their own.
+    // Whether their pixels have independent random numbers.
     static bool are_independent(const ComparedTerm& c) {
         const auto two = two_seeds(c);
         return smooth_part(c.theirs, c.ours) < most_if_independent ||
@@ -261,7 +263,7 @@ private:
         return is_mostly_ours(c) ? TermVerdict::Doubt::few_samples : TermVerdict::Doubt::shared_numbers;
     }
 
-    // Whether our own noise is most of what hides the difference.
+    // Whether most of the noise that hides the difference is ours.
     static bool is_mostly_ours(const ComparedTerm& c) {
         double ours = 0.0, all = 0.0;
         for (const Rgb& v : c.ours.variance.pixels) ours += v.r + v.g + v.b;

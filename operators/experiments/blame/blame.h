@@ -1,4 +1,4 @@
-// Which bounce of another renderer is wrong, and what is wrong with it: its pictures against our own terms.
+// Finds the bounce of another renderer that is wrong, and the mistake, by comparing its pictures with our own terms.
 #pragma once
 
 #include "core/scene/scene.h"
@@ -16,48 +16,50 @@
 namespace neumann {
 
 struct BlameSettings {
-    std::optional<Counting> counting = {};  // as the other renderer counts; chosen by the data if it is not given
-    double seconds = 20.0;                  // for our own terms; what the mistakes make of the scene takes as long again, at most
+    std::optional<Counting> counting = {};      // how the other renderer counts; chosen by the data if it is not given
+    double seconds = 20.0;                      // for our own terms; the pictures of mistakes take at most as long again
     std::optional<std::uint64_t> samples = {};  // a pixel, in place of the seconds
     std::uint64_t seed = 0;
 };
 
 struct TermVerdict {
-    // Why it cannot be told. Right renderers, too, make pictures that look as if something were wrong.
+    // Why a term cannot be judged. Right renderers, too, make pictures that look as if something were wrong.
     enum class Doubt {
-        few_samples,     // of ours: what is seen may be our noise, or no mistake is clearly likelier than none
-        shared_numbers,  // theirs differ over wide areas by more than their own noise, and no mistake explains it
-        seeds_differ     // and so do their pictures of two seeds
+        few_samples,  // our samples: the difference may be our noise, or no mistake is clearly likelier than none
+        // their pictures differ over wide areas by more than their own noise, and no mistake explains it
+        shared_numbers,
+        seeds_differ  // likewise, and so do their pictures of two seeds
     };
 
     BounceRange bounces;
     DifferenceTest test;
-    double threshold = 0.0;  // the pictures are further apart than chance explains where test.p is below
+    double threshold = 0.0;  // if test.p is below, the pictures are further apart than chance explains
     bool differs = false;
-    std::optional<Doubt> doubt;  // if the pictures are further apart than chance explains and it does not differ all the same
+    std::optional<Doubt> doubt;  // set if the pictures are further apart than chance explains but `differs` is false
     PictureNoise theirs, ours;
     Estimate difference;            // theirs less ours
-    Image z;                        // the same in standard errors of the pixel
-    std::vector<WorstPlace> worst;  // if it differs
+    Image z;                        // the difference in standard errors of the pixel
+    std::vector<WorstPlace> worst;  // empty unless it differs
 };
 
 struct ShapeShare {
     std::uint32_t shape = 0;  // or SurfacePoint::infinity
     double share = 0.0;       // of the squared difference in the first wrong term
-    double ratio = 1.0;       // theirs to ours on it
+    double ratio = 1.0;       // their light to ours on this shape
 };
 
 struct Blame {
     enum class Verdict { right, wrong, unclear };
 
     Counting counting = Counting::mitsuba;
-    std::optional<Counting> told;    // where the data say something else
-    bool knows_their_noise = false;  // from a second picture or a variance; otherwise it is ours times a number
+    std::optional<Counting> told;  // set if the data say something else
+    // from a second picture or a variance; otherwise it is taken as ours times a number
+    bool knows_their_noise = false;
     std::vector<TermVerdict> terms;
-    std::optional<std::size_t> first_wrong;  // among the terms
+    std::optional<std::size_t> first_wrong;  // index into `terms`
     std::vector<Suspect> suspects;
-    std::vector<ShapeShare> shapes;  // of the first wrong term, largest share first
-    std::uint64_t samples = 0;       // of ours, a pixel
+    std::vector<ShapeShare> shapes;  // for the first wrong term, largest share first
+    std::uint64_t samples = 0;       // our samples of a pixel
     std::vector<std::string> sentences;
 
     const TermVerdict* first_doubtful() const;
@@ -66,11 +68,12 @@ struct Blame {
 
 const char* name_of(Blame::Verdict verdict);
 
-// The chance that the pictures of a right renderer are further apart from ours than they should be, over all terms together.
+// The probability that the pictures of a right renderer are judged to be further apart from ours than chance explains,
+// over all terms together.
 constexpr double false_alarms = 0.005;
 
-// `pictures`: of one size, which becomes that of the scene's film. Throws InputError as terms_of() does, if a value is
-// not finite, and if the film has another shape; Stopped.
+// Judges `pictures`, which have one size; the scene's film gets that size. Throws InputError as terms_of() does, if a
+// value is not finite, and if the film has another shape; Stopped.
 Blame blame(const Scene& scene, std::vector<DepthPicture> pictures, const BlameSettings& settings, const Watch& watch = {});
 // The same for pictures of the size of the scene's film.
 Blame blame(ExpectedPictures& expected, const std::vector<DepthPicture>& pictures, std::optional<Counting> counting = {});

@@ -13,10 +13,10 @@ namespace neumann {
 namespace {
 
 constexpr int block = 8;
-constexpr int reach = 1;  // in blocks: whose noise is pooled
+constexpr int reach = 1;  // the distance in blocks over which noise is pooled
 
-// By how much the variance of a block's mean exceeds that of independent pixels: 1 + 2ρ in both directions, ρ the correlation of
-// neighbours.
+// The factor by which the variance of a block's mean exceeds that of independent pixels: 1 + 2ρ in both directions,
+// with ρ the correlation of neighbours.
 double correlation_factor(const Image& difference, int c) {
     double all = 0.0, across = 0.0, down = 0.0, n_all = 0.0, n_across = 0.0, n_down = 0.0;
     for (int y0 = 0; y0 < difference.height; y0 += block)
@@ -46,14 +46,14 @@ double correlation_factor(const Image& difference, int c) {
     return factor(across, n_across) * factor(down, n_down);
 }
 
-// A channel of a block before its neighbours have been asked.
+// The noise of one channel of a block alone, without its neighbours.
 struct BlockNoise {
     double variance = 0.0;                             // of a pixel
-    double level = 0.0;                                // of the brighter of both pictures
+    double level = 0.0;                                // mean of the brighter of both pictures
     double squares = 0.0, cubes = 0.0, fourths = 0.0;  // sums over pixels of the difference less its mean, to these powers
 };
 
-// `said`: the sum of the pixels' variances.
+// `said`: the sum of the variances that the pictures have for the pixels.
 BlockNoise noise_in(BlockDifference& of, int c, const Image& difference, double said) {
     double sum = 0.0;
     const auto for_pixels = [&](const auto& f) {
@@ -74,7 +74,7 @@ BlockNoise noise_in(BlockDifference& of, int c, const Image& difference, double 
     return noise;
 }
 
-// What blocks together tell of their noise.
+// The noise of several blocks together.
 struct PooledNoise {
     double variance = 0.0, light = 0.0, squares = 0.0, cubes = 0.0, fourths = 0.0, pixels = 0.0;
 
@@ -86,11 +86,12 @@ struct PooledNoise {
         fourths += block.fourths;
         pixels += its_pixels;
     }
-    // Of a pixel, in units of its light.
+    // The variance of a pixel in units of its light.
     double by_light() const { return light > 0.0 ? variance / light : 0.0; }
-    // Degrees of freedom of Student's t for such a difference. Rare events that have not come make a picture darker and hide their
-    // noise: the other way than the long tail, what is known rests on the events that have come. With k of one size these are k,
-    // and with Gaussian noise a third of the pixels.
+    // Degrees of freedom of Student's t for such a difference. If the difference has the sign of the long tail, the
+    // noise is known as well as all pixels show it. Rare events that have not come make a picture darker and hide their
+    // noise: with the other sign, knowledge rests on the events that have come. With k events of one size these are k
+    // degrees, and with Gaussian noise a third of the pixels.
     double freedom(double difference) const {
         const bool is_by_events = difference * cubes > 0.0;
         const double events = fourths > 0.0 ? squares * squares / fourths : 0.0;
@@ -98,7 +99,8 @@ struct PooledNoise {
     }
 };
 
-// The smallest of three: the mean over all blocks, the block that differs most, and the sum of squares.
+// The smallest of three probabilities: for the mean over all blocks, the block that differs most, and the sum of
+// squares.
 double p_of(const BlockDifferences& differences, int c) {
     double sum = 0.0, variance = 0.0, squares = 0.0, most = 1.0;
     for (const BlockDifference& b : differences.blocks) {

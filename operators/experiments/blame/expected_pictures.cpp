@@ -9,7 +9,7 @@ namespace neumann {
 
 namespace {
 
-// For what the mistakes make of the scene: some ten microseconds each.
+// The most paths for the pictures of mistakes; each takes some ten microseconds.
 constexpr double most_paths = 4e6;
 
 }  // namespace

@@ -1,5 +1,5 @@
-// What pictures of a scene are compared with: our own terms, and what mistakes make of them. Each is rendered when it is first
-// asked for, so that the pictures of several renderers share them.
+// The pictures with which others are compared: our own terms, and those that mistakes make of the scene. Each is
+// rendered when it is first needed, so that the pictures of several renderers share them.
 #pragma once
 
 #include "core/scene/scene.h"
@@ -19,18 +19,19 @@ class ExpectedPictures {
 public:
     using Ranges = std::vector<BounceRange>;
 
-    // `samples` a pixel of our own terms, or those of so many seconds. Our samples are independent of each other, as those of most
-    // renderers are: their variance then is ours, times a number.
+    // Our own terms have `samples` a pixel, or as many as take `seconds`. Our samples are independent of each other, as
+    // those of most renderers are: their variance is then ours, times a number.
     ExpectedPictures(Scene scene, std::optional<std::uint64_t> samples, double seconds, std::uint64_t seed, Watch watch = {});
 
     const Scene& scene() const { return scene_; }
-    // Bounces 0 … `bounces` at least. All functions throw Stopped.
+    // Our terms of at least bounces 0 … `bounces`. All functions throw Stopped.
     std::shared_ptr<const BounceSeries> ours(int bounces);
     std::shared_ptr<const std::vector<WrongTerms>> wrong(const Ranges& ranges);
-    int paths_a_pixel() const;  // of these
+    int paths_a_pixel() const;  // samples of a pixel in wrong()
     std::shared_ptr<const std::vector<WrongPictures>> without_techniques(const Ranges& ranges);
 
-    // Pictures of mistakes are large: all but the last that were asked for are thrown away, unless they are kept for others.
+    // Keeps all pictures of mistakes for other renderers. They are large, so by default only those needed last are
+    // kept.
     void keep_all() { keeps_all_ = true; }
 
 private:

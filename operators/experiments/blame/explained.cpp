@@ -11,7 +11,7 @@ namespace {
 
 constexpr double beyond_chance = 4.0;  // standard deviations of a sum of squares
 
-// With noise alone a sum of n squares in three channels that go together has this standard deviation.
+// The standard deviation, with noise alone, of a sum of n squares in three channels that are fully correlated.
 double by_chance(std::size_t n) { return std::sqrt(18.0 * static_cast<double>(n)); }
 
 double part(double all, double left, double chance) { return all > beyond_chance * chance ? 1.0 - std::abs(left) / all : 0.0; }
@@ -36,7 +36,7 @@ double Explained::by_blocks(const PictureNoise& wrong) const {
     return part(all, left, by_chance(without.blocks.size()));
 }
 
-// Pixels count for no more than this, so that fireflies do not decide.
+// The contribution of a pixel is limited, so that fireflies do not decide.
 double Explained::beyond_noise(const PictureNoise& expected) const {
     constexpr double most = 50.0;
     double sum = 0.0;

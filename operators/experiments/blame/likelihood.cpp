@@ -7,7 +7,7 @@ namespace neumann {
 
 namespace {
 
-// −2 log of the likelihood of one pixel after the other.
+// −2 log of the likelihood of single pixels.
 class Misfits {
 public:
     Misfits(const PictureNoise& a, const PictureNoise& b, const Image& usual) : a_(a), b_(b), usual_(usual) {

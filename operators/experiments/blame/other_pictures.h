@@ -1,4 +1,4 @@
-// Pictures of another renderer, made with depth limits, as pictures of bounces.
+// Turns pictures of another renderer, made with depth limits, into pictures of bounces.
 #pragma once
 
 #include "core/image/image.h"
@@ -9,11 +9,11 @@
 
 namespace neumann {
 
-// Over pixels and channels.
+// The mean over pixels and channels.
 double mean_of(const Image& image);
 
-// How a renderer counts. With the limit d its picture holds the bounces 0 … last: `mitsuba` (max_depth) d − 1, `pbrt` (maxdepth) d,
-// `cycles` (max_bounces) d + 1. With `bounces` the picture numbered d is K^d Le alone.
+// The way a renderer counts. With the limit d its picture holds the bounces 0 … last: `mitsuba` (max_depth) d − 1,
+// `pbrt` (maxdepth) d, `cycles` (max_bounces) d + 1. With `bounces` the picture numbered d is K^d Le alone.
 enum class Counting { bounces, mitsuba, pbrt, cycles };
 constexpr Counting depth_countings[] = {Counting::mitsuba, Counting::pbrt, Counting::cycles};
 const char* name_of(Counting counting);
@@ -23,14 +23,14 @@ struct DepthPicture {
     int depth = 0;
     Image mean;
     std::optional<Image> variance = {};         // of the mean, by pixel and channel, if it is known
-    std::optional<Image> half_difference = {};  // of two pictures of which it is the mean: of the first less the second
+    std::optional<Image> half_difference = {};  // half of the first less the second, if it is the mean of two pictures
 };
 
-// The mean of two pictures of one depth from different seeds, with the variance that their difference tells, averaged over 5×5
-// pixels. Throws InputError if their sizes differ.
+// The mean of two pictures of one depth from different seeds, with the variance estimated from their difference,
+// averaged over 5×5 pixels. Throws InputError if their sizes differ.
 DepthPicture mean_of_two(int depth, const Image& a, const Image& b);
 
-// Bounces that a picture holds, added up.
+// The bounces whose sum a picture holds.
 struct BounceRange {
     int first = 0, last = 0;
     bool operator==(const BounceRange&) const = default;
@@ -47,10 +47,10 @@ struct OtherTerm {
 // is given twice, if pictures have different sizes, or if one holds no bounce.
 std::vector<OtherTerm> terms_of(std::vector<DepthPicture> pictures, Counting counting);
 
-// How far the pictures' means are from `sums`, the means of Σ_{k≤i} K^k Le for i = 0, 1, …, with this counting: the mean of |a − b|
-// / (a + b), between 0 and 1.
+// The distance of the pictures' means from `sums`, the means of Σ_{k≤i} K^k Le for i = 0, 1, …, with this counting: the
+// mean of |a − b| / (a + b), between 0 and 1.
 double misfit_of_means(const std::vector<DepthPicture>& pictures, Counting counting, const std::vector<double>& sums);
-// The counting for which that is least.
+// The counting with the smallest misfit_of_means().
 Counting likely_counting(const std::vector<DepthPicture>& pictures, const std::vector<double>& sums);
 
 }  // namespace neumann

@@ -15,7 +15,8 @@ PathVertex vertex_of(const Scene& scene, const PathStep& step, const Vec3& camer
     return vertex;
 }
 
-// All paths that a sample tried, up to the last of these bounces: each ends where it looked for light, or met it.
+// All paths that a sample tried, up to the last of these bounces. Each ends at a light sample or at a light that it
+// hit.
 std::vector<OurPath> paths_of(const Scene& scene, const Replay& replay, std::uint64_t sample, const BounceRange& bounces) {
     std::vector<OurPath> paths;
     OurPath path;

@@ -16,7 +16,7 @@ namespace {
 struct Kind {
     Mistake mistake;
     const char *name, *words;
-    bool is_of_lamp_samples;  // it matters how lamp samples share the work with directions
+    bool is_of_lamp_samples;  // whether the mistake depends on how light samples share the work with directions
 };
 constexpr Kind kinds[] = {
     {Mistake::none, "none", "nothing is wrong", false},
@@ -68,7 +68,7 @@ std::vector<WrongTerms> all_wrong() {
     return all;
 }
 
-// A sample of a lamp as seen from x, on either side of the lamp.
+// A light sample as seen from x, on either side of the lamp.
 struct LampSample {
     SurfacePoint y;
     Vec3 w;
@@ -77,7 +77,7 @@ struct LampSample {
     bool is_back = false, is_surface = false;
 };
 
-// Follows paths, and adds up what they bring under each mistake.
+// Follows paths, and adds up their contributions under each mistake.
 class WrongPaths {
 public:
     WrongPaths(const Scene& scene, const std::vector<BounceRange>& ranges, std::vector<WrongTerms>& wrong)
@@ -88,7 +88,7 @@ public:
                     {Image(scene.film.crop_width, scene.film.crop_height), Image(scene.film.crop_width, scene.film.crop_height)});
     }
 
-    // The mean of what is right in the first range, from a few samples; clamps are relative to it.
+    // Sets the mean of the right picture in the first range, from a few samples; clamps are relative to it.
     void set_scale(double scale) { scale_ = scale; }
 
     void pixel(int x, int y, int samples, std::uint64_t seed) {
@@ -122,16 +122,17 @@ private:
               now(paths.wrong_.size()),
               found(paths.wrong_.size() * paths.ranges_.size()) {}
         void follow(int x, int y, Sampler& sampler);
-        // Adds what this bounce brought to the range that it is in.
+        // Adds the contributions to this bounce to the range that contains it.
         void put(int bounce);
         void ask_lamp(const SurfaceSide& side, const SurfacePoint& x, const Vec3& wo, const Rgb& beta, Sampler& sampler);
         void hit(const SurfacePoint& x, const Vec3& wo, const Rgb& beta, double pdf, double pdf_of_lamp, bool had_diffuse);
         void reflect(const SurfaceSide& side, const SurfacePoint& x, const Vec3& wo, const Rgb& beta, int bounce, bool is_mirror);
 
         const WrongPaths& paths;
-        std::vector<Rgb> factor, now;  // by mistake: of the path so far, and what this bounce brings
-        std::vector<Rgb> arrived;      // the factors before this bounce's reflection
-        std::vector<Rgb> found;        // by mistake and range
+        // by mistake: the factors of the path so far, and the contribution to this bounce
+        std::vector<Rgb> factor, now;
+        std::vector<Rgb> arrived;  // the factors before this bounce's reflection
+        std::vector<Rgb> found;    // by mistake and range
     };
     LampSample sample_lamp(const SurfacePoint& x, Sampler& sampler) const;
     // Le on this side of a lamp, also from behind.
@@ -203,7 +204,7 @@ void WrongPaths::Walk::ask_lamp(const SurfaceSide& side, const SurfacePoint& x, 
                 f *= 2.0;
                 break;
             case Mistake::light_twice:
-                f *= 2.0;  // as the mean of either in full, and both
+                f *= 2.0;  // this has the expectation of counting both in full
                 break;
             default:
                 break;
@@ -255,7 +256,7 @@ void WrongPaths::Walk::reflect(const SurfaceSide& side, const SurfacePoint& x, c
                 if (is_behind && !transmits(*side.bsdf)) factor[m] = Rgb(0.0);
                 break;
             case Mistake::no_roulette_weight:
-                // The throughput with which the path arrived decides whether it goes on to this bounce.
+                // The throughput on arrival decides whether the path goes on to this bounce.
                 if (bounce >= std::max(paths.ranges_.front().first, 1)) factor[m] *= survival;
                 break;
             default:

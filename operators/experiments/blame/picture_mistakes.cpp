@@ -32,7 +32,7 @@ Image flipped(const Image& image, bool across, bool down) {
     return made(image, [&](int x, int y) { return image.at(across ? image.width - 1 - x : x, down ? image.height - 1 - y : y); });
 }
 
-// What a weighted sum of pixels makes of their means, or with the squares of the weights of their variances.
+// A weighted sum of pixels acts on means with the weights, and on variances with their squares.
 enum class Of { means, variances };
 double weight(double w, Of of) { return of == Of::means ? w : w * w; }
 
@@ -70,7 +70,7 @@ Image blurred(const Image& image, double sigma, Of of) {
 double to_srgb(double v) { return v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1.0 / 2.4) - 0.055; }
 double from_srgb(double v) { return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4); }
 
-// What a function of pictures makes of the terms: of sums, whose differences are taken, or of the terms themselves.
+// Applies a function of pictures to the terms: to sums, whose differences are taken, or to the terms themselves.
 class Terms {
 public:
     Terms(const std::vector<ComparedTerm>& terms, bool are_sums) : terms_(terms), are_sums_(are_sums) {}
@@ -99,7 +99,7 @@ public:
             Image mean = all(base);
             if (are_sums_)
                 for (std::size_t i = 0; i < mean.pixels.size(); ++i) mean.pixels[i] -= before.pixels[i];
-            // By the slope of f.
+            // The variance is propagated by the slope of f.
             Image variance = made(base, [&](int x, int y) {
                 Rgb v(0.0);
                 for (int c = 0; c < 3; ++c) {
@@ -119,7 +119,8 @@ private:
     bool are_sums_;
 };
 
-// By weighted least squares in which outliers weigh less, from the ratio of the sums on. `pixels`: those that count.
+// Weighted least squares in which outliers weigh less, starting from the ratio of the sums. `pixels`: the pixels that
+// count.
 double fitted_factor(const PictureNoise& theirs, const PictureNoise& ours, const std::vector<std::size_t>& pixels) {
     double sum_theirs = 0.0, sum_ours = 0.0;
     for (const std::size_t i : pixels) {
@@ -162,7 +163,7 @@ PictureNoise scaled_evenly(const PictureNoise& p, double factor) {
     return scaled(p, [=](std::size_t) { return factor; });
 }
 
-// "2", "π", "1/2": a factor that people leave out or put in.
+// "2", "π", "1/2": a factor that people forget or add.
 std::string factor_text(double factor) {
     struct Known {
         double value;
@@ -205,7 +206,7 @@ void add_factors(std::vector<WrongPictures>& all, const std::vector<ComparedTerm
     all.push_back(std::move(different));
 }
 
-// The same light in every pixel too much or too little, by the median over the pixels.
+// The same light too much or too little in every pixel: the median over the pixels.
 void add_offset(std::vector<WrongPictures>& all, const std::vector<ComparedTerm>& terms) {
     WrongPictures wrong{"offset", "", {}};
     wrong.is_a_cause = false;

@@ -1,5 +1,5 @@
-// Mistakes that are made with finished pictures: flipped, shifted, blurred, encoded, scaled. What the right pictures become by
-// them.
+// Mistakes that are made with finished pictures: flipped, shifted, blurred, encoded, scaled. These functions make them
+// with the right pictures.
 #pragma once
 
 #include "operators/experiments/blame/difference_test.h"
@@ -12,7 +12,7 @@
 
 namespace neumann {
 
-// The factor by which `ours` is closest to the other picture.
+// The factor by which `ours` comes closest to the other picture.
 double fitted_factor(const PictureNoise& theirs, const PictureNoise& ours);
 PictureNoise scaled(const PictureNoise& picture, double factor);
 
@@ -22,22 +22,23 @@ struct WrongPictures {
     std::vector<PictureNoise> terms;
     int parameters = 0;
     bool is_smoothed = false;  // pixels are means of ours, and have less noise
-    bool is_a_cause = true;    // and nothing that luck may make, such as a factor of 1.1
+    bool is_a_cause = true;    // not for changes that chance may make, such as a factor of 1.1
 };
 
 struct ComparedTerm {
     BounceRange bounces;
     PictureNoise theirs, ours;
-    std::optional<Image> half_difference;  // of theirs, by two seeds
-    Image left_open;                       // variance that our few samples leave open in each pixel, beside what they show
+    std::optional<Image> half_difference;  // half the difference of their two pictures
+    Image left_open;                       // the variance that our few samples leave open in each pixel, beyond what they show
     Image our_sum_before, our_sum;         // Σ K^k Le over the bounces before the range, and up to its end
 };
 
-// `are_sums`: the other renderer wrote pictures with all bounces up to a limit, so that what it does to pictures it does to these.
-// `shapes`: what a ray through the middle of each pixel meets, for factors that differ by shape.
+// The pictures of all such mistakes. `are_sums`: the other renderer wrote pictures with all bounces up to a limit, so
+// that its mistakes apply to sums. `shapes`: the shape that a ray through the middle of each pixel hits, for factors
+// that differ by shape.
 std::vector<WrongPictures> wrong_pictures(const std::vector<ComparedTerm>& terms, bool are_sums,
                                           const std::vector<std::uint32_t>& shapes);
-// Those alone that change no more than where a pixel lies and how it is encoded. They have no parameters but a shift.
+// Only those mistakes that change the places and the encoding of pixels. They have no parameters but a shift.
 std::vector<WrongPictures> moved_pictures(const std::vector<ComparedTerm>& terms, bool are_sums);
 
 }  // namespace neumann

@@ -8,7 +8,7 @@ namespace neumann {
 
 namespace {
 
-// A suspect is named alone if the next is so much less likely.
+// A suspect is named alone if the next one is less likely by this much.
 constexpr double clear_lead = 10.0;
 
 std::string title(const Scene& scene, std::uint32_t shape) {
@@ -35,7 +35,7 @@ std::string named(const BounceRange& bounces) {
     return name;
 }
 
-// "; those before agree", or which of them do not.
+// "; those before agree", or the ones that do not.
 std::string those_before(const std::vector<TermVerdict>& terms, std::size_t wrong) {
     if (wrong == 0) return "";
     for (std::size_t i = 0; i < wrong; ++i)
@@ -43,7 +43,7 @@ std::string those_before(const std::vector<TermVerdict>& terms, std::size_t wron
     return "; those before agree";
 }
 
-// Where it is not known whether something is wrong, and what would tell it.
+// The sentence for a term that is perhaps wrong, with the advice that would decide it.
 std::string what_is_unclear(const TermVerdict& term, std::uint64_t samples) {
     const std::string is_apart =
         fmt::format("It cannot be told whether {} {} right: {} {:.4g} ± {:.2g} of our light", to_string(term.bounces),

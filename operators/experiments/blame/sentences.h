@@ -1,4 +1,5 @@
-// A verdict in three sentences: which bounce differs first and by how much, what that looks like, and where it is.
+// A verdict in three sentences: which bounce differs first and by how much, what mistake that looks like, and where it
+// is.
 #pragma once
 
 #include "core/scene/scene.h"
@@ -9,7 +10,7 @@
 
 namespace neumann {
 
-// With another where depths seem to be counted otherwise, and one where their noise had to be guessed.
+// One more sentence is added if depths seem to be counted in another way, and one if their noise had to be guessed.
 std::vector<std::string> sentences_about(const Blame& blame, const Scene& scene);
 
 }  // namespace neumann

@@ -1,4 +1,4 @@
-// Mistakes that show in pixels whose light is sure: what the camera sees of lamps, directly or in mirrors.
+// Finds mistakes that show in pixels whose light is sure: lamps that the camera sees, directly or in mirrors.
 #pragma once
 
 #include "operators/experiments/blame/suspects.h"
@@ -8,15 +8,15 @@
 
 namespace neumann {
 
-// A mistake that such pixels go along with.
+// A mistake that agrees with such pixels.
 struct SureCause {
     std::string words;
     double left = 1.0;
     bool is_found() const { return !words.empty(); }
 };
 
-// Of each term. What moves pixels shows in what the camera sees of lamps, and so does what changes bounce 0 alone; what
-// reflections by mirrors lack in those.
+// A cause for each term, or none. Mistakes that move pixels or change bounce 0 alone show in the lamps that the camera
+// sees; missing reflections by mirrors show in the lamps seen there.
 std::vector<SureCause> find_sure_causes(ExpectedPictures& expected, const std::vector<ComparedTerm>& compared, bool are_sums);
 
 }  // namespace neumann

@@ -8,8 +8,8 @@ namespace neumann {
 
 namespace {
 
-// The chance that a right renderer with so many samples a pixel comes halfway or more from `right` to `wrong`, by Chebyshev's
-// inequality. By the rule of three n samples that agree leave a part of 3/n open.
+// The probability that a right renderer with this number of samples a pixel comes halfway or more from `right` to
+// `wrong`, by Chebyshev's inequality. By the rule of three n samples that agree leave a part of 3/n open.
 double chance_of_half(const PictureNoise& ours, const SureLight& right, const PictureNoise& wrong, std::size_t i,
                       double their_samples) {
     const PictureNoise& picture = right.picture;
@@ -19,13 +19,13 @@ double chance_of_half(const PictureNoise& ours, const SureLight& right, const Pi
     return (variance.r + variance.g + variance.b) / (0.25 * glm::dot(change, change));
 }
 
-// That of k pixels or more where `expected` are, by Chernoff's inequality.
+// The probability of k pixels or more if `expected` are expected, by Chernoff's inequality.
 double chance_of_many(double k, double expected) {
     return k > expected ? std::exp(k - expected - k * std::log(k / expected)) : 1.0;
 }
 
-// The part of the squared difference that `wrong` leaves, over the pixels that it changes and of which counts(i, change, the
-// product of change and difference) is true.
+// The part of the squared difference that `wrong` leaves, over the pixels that it changes and for which counts(i,
+// change, the product of change and difference) is true.
 template <class Counts>
 double part_left(const PictureNoise& theirs, const PictureNoise& ours, const SureLight& right, const PictureNoise& wrong,
                  const Counts& counts) {

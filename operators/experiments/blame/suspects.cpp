@@ -59,7 +59,7 @@ std::vector<Suspect> find_suspects(ExpectedPictures& expected, const std::vector
                                    const std::vector<std::uint32_t>& shapes) {
     Suspects suspects(terms);
     for (const WrongPictures& w : wrong_pictures(terms, are_sums, shapes))
-        // What is shifted or blurred is so in the first picture that there is.
+        // A shift or blur must already show in bounce 0.
         suspects.add(w.name, w.words, w.terms, w.parameters, w.parameters > 0, w.is_smoothed,
                      w.is_a_cause && (!w.is_smoothed || terms.front().bounces.first == 0));
     std::vector<BounceRange> ranges;

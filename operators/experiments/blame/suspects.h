@@ -1,4 +1,4 @@
-// Mistakes that may have made a wrong picture.
+// A mistake that may have made a wrong picture.
 #pragma once
 
 #include "operators/experiments/blame/difference_test.h"
@@ -13,22 +13,25 @@ namespace neumann {
 
 struct Suspect {
     std::string name, words;
-    double misfit = 0.0;      // −2 log of the likelihood, with 2 log n for each parameter that was fitted; differences count
+    // −2 log of the likelihood, plus 2 log n for each fitted parameter; only differences have a meaning
+    double misfit = 0.0;
     bool is_fitted = false;   // a factor or an offset, which describes and does not explain
     bool is_a_cause = false;  // see WrongPictures
-    double explained = 0.0;   // part of the squared difference in the first term, see Explained; by the kind's best
-    DifferenceTest left;      // of the first term against what this mistake makes of it
+    // part of the squared difference in the first term (see Explained); the best value of its kind
+    double explained = 0.0;
+    DifferenceTest left;  // test of the first term against the picture of this mistake
 
-    // All that can be seen, but for what is known of its own picture only roughly.
+    // Whether it explains all that can be seen; the limits allow for its own picture being known only roughly.
     bool explains() const { return explained > 0.95 && left.p > 1e-6; }
 };
 
-// Of each kind the likeliest, likeliest first; but those that leave nothing unexplained, and are not fitted, come before. The
-// terms are explained together. `shapes`: what a ray through the middle of each pixel meets. Throws Stopped.
+// The likeliest mistake of each kind, likeliest first; but mistakes that leave nothing unexplained, and are not fitted,
+// come before the others. The terms are explained together. `shapes`: the shape that a ray through the middle of each
+// pixel hits. Throws Stopped.
 std::vector<Suspect> find_suspects(ExpectedPictures& expected, const std::vector<ComparedTerm>& terms, bool are_sums,
                                    const std::vector<std::uint32_t>& shapes);
 
-// Of the terms, if nothing is wrong.
+// The misfit of the terms if nothing is wrong.
 double misfit_of_none(const std::vector<ComparedTerm>& terms);
 
 }  // namespace neumann

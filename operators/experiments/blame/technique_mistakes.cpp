@@ -31,7 +31,7 @@ constexpr MissingKind missing_kinds[] = {
      [](const Way& way) { return way.s == 0; }},
 };
 
-// The techniques are of the same paths; their covariances, which are small beside their variances, are left out.
+// The techniques share paths; their covariances are small compared with their variances, and are left out.
 void add(PictureNoise& sum, const Estimate& way) {
     for (std::size_t p = 0; p < sum.mean.pixels.size(); ++p) {
         sum.mean.pixels[p] += way.mean.pixels[p];

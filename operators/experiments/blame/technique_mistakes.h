@@ -1,6 +1,6 @@
-// What a bidirectional path tracer makes of a scene if one kind of its techniques (s, t) is missing: s vertices of a path come from
-// the light and t from the camera, and the other techniques keep their weights, those of multiple importance sampling (power
-// heuristic).
+// The pictures that a bidirectional path tracer makes if one kind of its techniques (s, t) is missing: s vertices of a
+// path come from the light and t from the camera, and the other techniques keep their weights, those of multiple
+// importance sampling (power heuristic).
 #pragma once
 
 #include "core/scene/scene.h"
@@ -12,7 +12,8 @@
 
 namespace neumann {
 
-// A wrong picture of each of these bounces for each kind. None for a scene that our own bidirectional method refuses.
+// For each kind, a wrong picture of each of these ranges of bounces. Empty for a scene that our own bidirectional
+// method refuses.
 std::vector<WrongPictures> without_techniques(const Scene& scene, const std::vector<BounceRange>& ranges, std::uint64_t samples,
                                               std::uint64_t seed, const Watch& watch = {});
 

@@ -1,4 +1,4 @@
-// Where pictures differ most: a few blocks of pixels, with a path of our own through each.
+// The places where pictures differ most: a few blocks of pixels, with a path of our own through each.
 #pragma once
 
 #include "operators/experiments/blame/difference_test.h"
@@ -10,13 +10,14 @@ namespace neumann {
 
 struct WorstPlace {
     int x = 0, y = 0, width = 0, height = 0;  // in pixels
-    Rgb theirs{0.0}, ours{0.0};               // means over it
-    double z = 0.0;                           // of the channel that differs most, in standard errors
-    int pixel_x = 0, pixel_y = 0;             // that differs most there
-    OurPath path;                             // through it
+    Rgb theirs{0.0}, ours{0.0};               // means over the block
+    double z = 0.0;                           // for the channel that differs most, in standard errors
+    int pixel_x = 0, pixel_y = 0;             // the pixel that differs most in the block
+    OurPath path;                             // a path through this pixel
 };
 
-// The blocks of block_differences() with the largest |z|, largest first, `most` at most, none beside another. Without paths.
+// At most `most` blocks of block_differences(), those with the largest |z|, largest first, no two adjacent. Their paths
+// are not set.
 std::vector<WorstPlace> worst_places(const PictureNoise& theirs, const PictureNoise& ours, std::size_t most);
 
 }  // namespace neumann

@@ -1,6 +1,6 @@
-// How many applications of K each method takes on the cube of 16 × 16 patches a face whose ceiling emits, until ‖x − L‖∞ ≤ ε ‖L‖∞
-// for ε = 1e-3, 1e-6, 1e-10, with L by LU. The counts were measured with independent programs of the same methods: ours may differ
-// by 2 or by 10%, for where a method starts and in which order it rounds.
+// The number of applications of K that each method takes on the cube of 16 × 16 patches a face whose ceiling emits,
+// until ‖x − L‖∞ ≤ ε ‖L‖∞ for ε = 1e-3, 1e-6, 1e-10, with L by LU. The expected counts are from independent programs of
+// the same methods: ours may differ by 2 or by 10%, because of the start of a method and the order of its rounding.
 #include "operators/experiments/known/cube.h"
 #include "operators/experiments/known/groups.h"
 #include "operators/solvers/anderson.h"
@@ -52,7 +52,7 @@ struct Acceleration {
     }
 };
 
-// Expected counts; 0 is not compared.
+// Expected counts; a count of 0 is not compared.
 struct Expected {
     Counts neumann, ratio, aitken, wynn, vector_epsilon, exact_interval, safe_interval, low_top, gmres, cg;
     std::array<double, 3> anderson;  // m = 1, 3, 8, to 1e-6

@@ -9,7 +9,7 @@ namespace neumann::known {
 
 namespace {
 
-// Glob matching, going back to the last star where it fails.
+// Glob matching; after a mismatch it goes back to the last star.
 bool fits(const char* name, const char* pattern) {
     const char *star = nullptr, *after_star = nullptr;
     while (*name) {

@@ -37,7 +37,7 @@ struct Cube {
     Vector ceiling() const { return on_faces({0, 0, 0, 0, 0, 1}); }
     DenseChannel channel(const Vector& rho) const { return {rho.asDiagonal() * factors.F, factors.area}; }
     DenseChannel channel(double rho) const { return channel(Vector::Constant(size(), rho)); }
-    // Mean over the part of a face where `inside` holds.
+    // The mean over the part of a face in which `inside` is true.
     template <class Inside>
     double mean(const Vector& x, int of_face, const Inside& inside) const {
         double sum = 0.0, area = 0.0;
@@ -61,9 +61,9 @@ inline Cube patched_cube(int n) {
     return cube;
 }
 
-// The cube for functions with the eight symmetries of the square (x, y): all patches that these map to each other are one unknown
-// with their total area. All walls are x0. A method that treats equal unknowns equally, and weights them by their area, has the
-// same iterates as on the whole cube.
+// The cube for functions with the eight symmetries of the square (x, y): all patches that these map to each other are
+// one unknown with their total area. All walls are x0. A method that treats equal unknowns equally, and weights them by
+// their area, has the same iterates as on the whole cube.
 inline Cube symmetric_cube(int n) {
     const auto kind = [n](const Vec3& centre) {
         const auto folded = [n](double x) {

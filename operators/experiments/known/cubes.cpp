@@ -14,7 +14,7 @@ namespace neumann::known {
 
 namespace {
 
-// g_1 … g_10: means over a wall, the floor and the ceiling, and their centres.
+// g_1 … g_10: means over a wall, the floor and the ceiling, and values at their centres.
 constexpr double g[10][6] = {
     {0.2000437760754035, 0.1998248956983871, 0.0, 0.1901358823848065, 0.23945647046077306, 0.0},
     {0.15671177281026544, 0.11740200680622123, 0.25575090195271727, 0.16324094849140766, 0.13875246294508298, 0.2082837430892865},
@@ -70,7 +70,8 @@ void add_walks(Cases& cases) {
                                                terms(column, bounces), 1, accuracy);
                              }});
         }
-    // By superposition: with one wall instead of the ceiling, g_i at the floor's centre is (1 − g_floor − g_ceiling)/4.
+    // By superposition: with one wall lit instead of the ceiling, g_i at the floor's centre is (1 − g_floor −
+    // g_ceiling)/4.
     cases.push_back({"cube/wall-lit/floor-centre/mis", "superposition of the above", [](Figures& figures, std::uint64_t seed) {
                          const Scene scene = cube_lit_by(right);
                          std::vector<double> exact;
@@ -81,7 +82,7 @@ void add_walks(Cases& cases) {
                                                    {.samples = 1024, .bounces = 10, .seed = seed}),
                                        exact, 1, accuracy);
                      }});
-    // Σ_{i>2} with ρ = 0.8: the table, then g_i = 1/6 to 1e-6.
+    // Σ_{i>2} with ρ = 0.8: the table, and beyond it g_i = 1/6 to 1e-6.
     cases.push_back({"cube/ceiling-lit/floor-centre/rest", "the same added up: 1e-6", [](Figures& figures, std::uint64_t seed) {
                          const Scene scene = cube_lit_by(ceiling);
                          double exact = std::pow(rho, 11) / (1.0 - rho) / 6.0;
@@ -138,8 +139,8 @@ double gathered(const Cube& cube, const Vector& x, const Parallelogram& face) {
     return sum;
 }
 
-// Piecewise constant radiance on n × n patches a face has discretisation errors of order h² ln h from the corners, which are
-// known too.
+// Piecewise constant radiance on n × n patches a face has discretisation errors of order h² ln h from the corners; the
+// results for each n are also known.
 void add_patches(Cases& cases) {
     struct Row {
         int n;

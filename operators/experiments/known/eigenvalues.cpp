@@ -14,8 +14,8 @@ namespace neumann::known {
 
 namespace {
 
-// λ₂(n) of n × n patches a face, of the whole cube. It grows on with n, towards 0.5945 of the corners, like 1/(ln n)²: K is not
-// compact.
+// λ₂(n) for n × n patches a face, of the whole cube. It grows with n without end towards 0.5945, the value of the
+// corners, like 1/(ln n)²: K is not compact.
 void add_cubes(Cases& cases) {
     for (const auto& [n, second] :
          {std::pair{2, 0.35378252258065523}, {4, 0.4473321313543558}, {8, 0.4969093656850799}, {16, 0.5253458862440682}})
@@ -32,7 +32,7 @@ void add_cubes(Cases& cases) {
                          figures.near("spectral radius", spectral_radius(K), 0.6622559026688091, 1e-11);
                          const OperatorNorms norms = operator_norms(K);
                          figures.near("maximum norm", norms.sup, 0.95, 1e-12);
-                         // Riesz and Thorin.
+                         // This is the inequality of Riesz and Thorin.
                          figures.at_most("|K|2^2 over |K|1 |K|max", norms.two * norms.two / (norms.one * norms.sup), 1.0 + 1e-12);
                          figures.at_least("|K|2", norms.two, 0.6622559026688091);
                      }});
@@ -60,8 +60,8 @@ void ring(Figures& figures, std::uint64_t) {
     figures.near("largest imaginary part", imaginary, 0.9 * std::sqrt(3.0) / 2, 1e-14);
 }
 
-// Form factors from patch centre to patch centre, F ≈ G A/π, have row sums up to 1.27: the series diverges below albedo 1. The
-// checks must show this defect.
+// Form factors from patch centre to patch centre, F ≈ G A/π, have row sums up to 1.27: the series diverges below albedo
+// 1. The checks must show this defect.
 void centre_to_centre(Figures& figures, std::uint64_t) {
     struct Row {
         int n;
@@ -86,9 +86,9 @@ void centre_to_centre(Figures& figures, std::uint64_t) {
     }
 }
 
-// A reflection c (μi μo)^a in a sphere, where T is the identity on functions of the angle: K f (μ) = 2π c μ^a ∫ μ'^(a+1) f(μ') dμ',
-// here with Gauss's points for μ', which are exact for polynomials. K^i 1 = 2π c μ^a/(a + 2) (2π c/(2a + 2))^(i−1); the largest
-// row sum, of the albedo, is not the spectral radius.
+// A reflection c (μi μo)^a in a sphere, where T is the identity on functions of the angle: K f (μ) = 2π c μ^a ∫
+// μ'^(a+1) f(μ') dμ', here with Gauss's points for μ', which are exact for polynomials. K^i 1 = 2π c μ^a/(a + 2) (2π
+// c/(2a + 2))^(i−1); the largest row sum, which is the largest albedo, is not the spectral radius.
 void power_of_cosines(Figures& figures, std::uint64_t) {
     using Gauss = boost::math::quadrature::gauss<double, 10>;
     constexpr double c = 0.25, a = 2.0;

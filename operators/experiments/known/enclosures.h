@@ -13,7 +13,7 @@ struct ClosedScene {
     SceneMaker maker;
 };
 
-// All surfaces are alike. The origin is inside and sees a surface in every direction.
+// Closed scenes in which all surfaces are alike. The origin is inside and sees a surface in every direction.
 inline std::vector<ClosedScene> enclosures(const Surface& surface) {
     std::vector<ClosedScene> all;
     const auto enclose = [&](const std::string& name) -> SceneMaker& { return all.emplace_back(ClosedScene{name, {}}).maker; };

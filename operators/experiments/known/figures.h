@@ -1,9 +1,9 @@
 // Expected and measured values, with their tolerances.
 //
-// Sampled values pass at |z| = |measured − expected| / SE ≤ 4.5, and only if SE is at most 0.2% of the expected value: without
-// power a pass says nothing. With the 63 degrees of freedom of 64 batches, |z| > 4.5 is a false alarm in 3.0e-5 of all comparisons
-// (Student's t). Where the variance is infinite, z means nothing; cases then check known
-// properties of the samples instead.
+// Sampled values pass at |z| = |measured − expected| / SE ≤ 4.5, and only if SE is at most 0.2% of the expected value:
+// without power a pass says nothing. With the 63 degrees of freedom of 64 batches, |z| > 4.5 is a false alarm in 3.0e-5
+// of all comparisons (Student's t). If the variance is infinite, z means nothing; cases then check known properties of
+// the samples instead.
 #pragma once
 
 #include "operators/experiments/known/probe.h"
@@ -47,9 +47,9 @@ public:
     void terms(const Estimates& found, std::span<const double> expected, int first = 1, double bias = 0.0);
     void at_most(std::string quantity, double measured, double limit);
     void at_least(std::string quantity, double measured, double limit);
-    // Passes if the words are the same.
+    // Compares words.
     void said(std::string quantity, std::string measured, std::string expected);
-    // A statement that must be true.
+    // Checks a statement that must be true.
     void holds(std::string quantity, bool holds);
     void fail(std::string quantity, std::string why);
 

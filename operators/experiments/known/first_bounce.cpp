@@ -1,5 +1,6 @@
-// One reflection: K Le = ρ Le F, F the form factor from a point or a surface to the light, in closed form (Lambert 1760; Howell's
-// catalogue of configuration factors), checked by tensor Gauss quadrature to 3e-14, spheres that cross the horizon to 3e-9.
+// One reflection: K Le = ρ Le F, with F the form factor from a point or a surface to the light, in closed form (Lambert
+// 1760; Howell's catalogue of configuration factors), checked by tensor Gauss quadrature to 3e-14, spheres that cross
+// the horizon to 3e-9.
 #include "core/sampling/warp.h"
 #include "operators/experiments/known/groups.h"
 #include "operators/experiments/known/scene_maker.h"
@@ -17,7 +18,8 @@ struct Receiver {
     Vec3 point, normal;
 };
 
-// By all techniques that sample lights, and by the others where the light is large enough to be found by chance.
+// Adds cases for all techniques that sample lights, and for the others if the light is large enough to be found by
+// chance.
 void add_point(Cases& cases, const std::string& name, const Shape& light, const Receiver& receiver, double F) {
     for (const Technique technique :
          {Technique::mis, Technique::light, Technique::bsdf, Technique::pointwise, Technique::surfaces}) {
@@ -39,7 +41,7 @@ TriangleMesh facing_up(double x0, double x1, double y0, double y1, double z = 0.
     return parallelogram({x0, y0, z}, {x1 - x0, 0, 0}, {0, y1 - y0, 0});
 }
 TriangleMesh facing_down(double x0, double x1, double y0, double y1, double z) { return flipped(facing_up(x0, x1, y0, y1, z)); }
-// In the plane x = 0, facing +x.
+// A rectangle in the plane x = 0, facing +x.
 TriangleMesh upright(double y0, double y1, double z0, double z1) {
     return parallelogram({0, y0, z0}, {0, y1 - y0, 0}, {0, 0, z1 - z0});
 }
@@ -49,7 +51,8 @@ Parallelogram flat(const TriangleMesh& mesh) {
     return turned ? Parallelogram{corner, b, a} : Parallelogram{corner, a, b};
 }
 
-// Means over the receiver. If it touches the light, light sampling has infinite variance (∫ G² diverges).
+// F is the mean over the receiver. If the receiver touches the light, light sampling has infinite variance (∫ G²
+// diverges).
 struct Pair {
     const char* name;
     TriangleMesh receiver, light;
@@ -89,8 +92,8 @@ void add_pairs(Cases& cases) {
     }
 }
 
-// Patches of side 1/n, the upper one at height 1 and shifted by (1/2, 1/4): the closed form's 16 terms have lost 3e-5 of this at
-// n = 1024 in double precision.
+// Patches of side 1/n, the upper one at height 1 and shifted by (1/2, 1/4). At n = 1024 the 16 terms of the closed form
+// lose a relative 3e-5 in double precision.
 void add_far_pairs(Cases& cases) {
     cases.push_back({"direct-light/far-pairs", "quadrature, 1e-13", [](Figures& figures, std::uint64_t) {
                          const std::pair<int, double> exact[] = {{4, 0.0007149585769442985},
@@ -108,8 +111,8 @@ void add_far_pairs(Cases& cases) {
                      }});
 }
 
-// E/π of environments of radiance 1, ω·n, (ω·n)², (ω·t)² and ω_n ω_t over the upper half, put together as 1 + b·ω + (q·ω)²:
-// K Le = ρ [1 + ⅔ b·n + ¼ |q|² + ¼ (q·n)²].
+// E/π for environments of radiance 1, ω·n, (ω·n)², (ω·t)² and ω_n ω_t over the upper half, put together as 1 + b·ω +
+// (q·ω)²: K Le = ρ [1 + ⅔ b·n + ¼ |q|² + ¼ (q·n)²].
 void add_sky(Cases& cases) {
     for (const Technique technique : {Technique::mis, Technique::bsdf, Technique::light})
         cases.push_back(
@@ -118,7 +121,7 @@ void add_sky(Cases& cases) {
                  const Vec3 b(0.3, -0.2, 0.4), q(0.5, 0.1, -0.7);
                  SceneMaker maker;
                  maker.add(make_cube(Mat4(1.0)), matte(receiver_rho));
-                 // It emits by direction alone, so it may be near.
+                 // The sphere's emission depends on direction alone, so it may be near.
                  maker.add(Sphere{{0, 0, 0}, 4.0, true},
                            {std::nullopt,
                             AreaLight([=](const SurfacePoint&,

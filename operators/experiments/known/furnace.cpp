@@ -1,5 +1,5 @@
-// The white furnace: Le = 1 and albedo ρ everywhere in a closed scene of any shape give K^i Le = ρ^i. Also the laws of every
-// closed diffuse scene: flux is conserved, and the light of several emitters adds up.
+// The white furnace: Le = 1 and albedo ρ everywhere in a closed scene of any shape give K^i Le = ρ^i. There are also
+// cases for laws of every closed diffuse scene: flux is conserved, and the light of several emitters adds up.
 #include "core/geometry/area_sampler.h"
 #include "operators/algebra/term_series.h"
 #include "operators/experiments/known/cube.h"
@@ -15,7 +15,7 @@ namespace neumann::known {
 
 namespace {
 
-// Samples without variance, all channels: |K^i Le − ρ^i| ≤ 8 i ε, and a standard error of exactly 0.
+// Checks samples without variance in all channels: |K^i Le − ρ^i| ≤ 8 i ε, and a standard error of exactly 0.
 void without_variance(Figures& figures, const Estimates& found, const Rgb& rho) {
     double worst = 0.0, spread = 0.0;
     for (std::size_t i = 0; i < found.terms.size(); ++i) {
@@ -34,7 +34,7 @@ void without_variance(Figures& figures, const Estimates& found, const Rgb& rho) 
     figures.near("largest standard error", spread, 0.0, 0.0);
 }
 
-// ρ^i for all i, with every technique and at every place.
+// Adds cases for ρ^i with all i, every technique and every place.
 void add_powers(Cases& cases) {
     const Rgb colour(0.25, 0.5, 0.75), bright(0.9, 0.99, 0.9999);
     for (const ClosedScene& enclosure : enclosures({})) {
@@ -72,7 +72,7 @@ void add_powers(Cases& cases) {
     }
 }
 
-// The number of terms until the relative remainder, ρ^(n+1), is small.
+// Adds cases for the number of terms until the relative remainder, ρ^(n+1), is small.
 void add_lengths(Cases& cases) {
     for (const double rho : {0.5, 0.9, 0.99, 0.999, 0.999999})
         cases.push_back({fmt::format("furnace/terms-needed/albedo-{:g}", rho), "least n with rho^(n+1) <= goal",
@@ -101,7 +101,7 @@ void add_laws(Cases& cases) {
                              figures.near(fmt::format("largest |row sum - 1|, {0} x {0} a face", n),
                                           closure_defect(symmetric_cube(n).channel(1.0)), 0.0, 1e-12);
                      }});
-    // Each face of a room lights it in turn, each time with seeds of their own.
+    // Each face of a room emits in turn, each time with a seed of its own.
     cases.push_back(
         {"furnace/superposition/six-faces", "sum of K^i over emitters = rho^i", [](Figures& figures, std::uint64_t seed) {
              const double rho = 0.6;

@@ -1,7 +1,7 @@
-// Smooth boundaries that let light through. A slab or a glass sphere under a sky of 1, with the unpolarised mean at each boundary:
-// K Le = R, K^i Le = (1 − R)² R^(i−2); all of the light comes back. Within a glass sphere the angle stays the same, and the camera
-// inside sees n² (1 − R) R^(i−1), or nothing beyond the critical angle. Where the boundaries glow with e into the glass, K^i Le has
-// e (1 − R) R^(i−1) / n² more outside, and e R^i within.
+// Smooth boundaries that transmit light. A slab or a glass sphere is under a sky of 1, with the unpolarised mean at
+// each boundary: K Le = R, K^i Le = (1 − R)² R^(i−2); all of the light comes back. Within a glass sphere the angle
+// stays the same, and the camera inside sees n² (1 − R) R^(i−1), or nothing beyond the critical angle. If the
+// boundaries emit e into the glass, K^i Le has e (1 − R) R^(i−1) / n² more outside, and e R^i inside.
 #include "core/material/fresnel.h"
 #include "operators/experiments/known/groups.h"
 #include "operators/experiments/known/quadrature.h"
@@ -16,13 +16,13 @@ namespace {
 constexpr double n = 1.5;
 
 Surface glass(double eta = n) { return boundary(Dielectric(eta), Dielectric(1.0 / eta)); }
-// Its front is within the glass.
+// A boundary that emits; its front is inside the glass.
 Surface glass_glowing_inwards(double glow) {
     Surface surface = boundary(Dielectric(1.0 / n), Dielectric(n));
     surface.emission = AreaLight(grey(glow));
     return surface;
 }
-// At 0, 45, 60, 80 and 89.9 degrees, from Fresnel's equations in high precision.
+// Degrees and reflectance, from Fresnel's equations in high precision.
 constexpr std::pair<double, double> reflected[] = {
     {0.0, 0.04}, {45.0, 0.050239911012}, {60.0, 0.089186712802}, {80.0, 0.387704354691}, {89.9, 0.989911876919}};
 
@@ -30,7 +30,8 @@ void fresnel(Figures& figures, std::uint64_t) {
     for (const auto& [degrees, R] : reflected)
         figures.near(fmt::format("R at {:g} degrees", degrees), conductor_fresnel(std::cos(degrees * pi / 180.0), n, 0.0), R,
                      1e-12);
-    // Integrated over √μ, for F has an edge of its own at grazing angles; inside, with a root's edge at the critical angle.
+    // The integration variable is √μ, because F has an edge at grazing angles; inside, F has a square-root edge at the
+    // critical angle.
     figures.near("cosine mean from outside",
                  integrate_smooth(0.0, 1.0, [](double s) { return conductor_fresnel(s * s, n, 0.0) * 4.0 * s * s * s; }),
                  0.0917779593423512, 1e-12);
@@ -52,8 +53,8 @@ std::vector<double> from_outside(double R, int count, double glow = 0.0) {
     return terms;
 }
 
-// Numbers are independent here: a Sobol' set has always as many points below R, and no spread to tell the error by. The standard
-// error of an outcome of probability p is √((1 − p)/(p N)) of it.
+// The samples are independent here: a Sobol' set always has the same number of points below R, and no spread that shows
+// the error. An outcome of probability p has the relative standard error √((1 − p)/(p N)).
 ProbeSettings probe_settings(double rarest, int bounces, std::uint64_t seed) {
     const double samples = (1.0 - rarest) / rarest / std::pow(0.9 * largest_relative_error, 2) / batch_count;
     return {.samples = static_cast<std::uint32_t>(64.0 * std::ceil(samples / 64.0)),
@@ -92,7 +93,7 @@ void sphere(Figures& figures, std::uint64_t seed, Technique technique, double gl
     const Estimates outside = sharp_probe(scene, seen(scene, center + Vec3(-3.0, sine, 0), {1, 0, 0}), technique,
                                           probe_settings(from_outside(R, 4).back(), 4, seed));
     for (std::size_t i = 1; i <= 4; ++i) figures.sampled(fmt::format("K^{} Le, from outside", i), outside.terms[i], exact[i - 1]);
-    // A ray inside at the distance b from the centre meets the surface at the angle of sine b.
+    // A ray inside at the distance b from the centre meets the surface at an angle whose sine is b.
     const auto from_inside = [&](double b) { return seen(scene, center + Vec3(0, b, 0), {1, 0, 0}); };
     const double last = (1.0 - R) * R * R;
     const Estimates inside = sharp_probe(scene, from_inside(sine / n), technique, probe_settings(last, 3, seed));
@@ -106,8 +107,8 @@ void sphere(Figures& figures, std::uint64_t seed, Technique technique, double gl
     figures.near("trapped light, largest term", most, glow, 0.0);
 }
 
-// A thin pane counts all reflections within it as one bounce, 2R/(1 + R) in all. It does not refract, so a lamp behind it is seen
-// where it is, whether the pane glows or not.
+// A thin pane counts all reflections within it as one bounce, 2R/(1 + R) in all. It does not refract, so a lamp behind
+// it is seen at its place, whether the pane emits or not.
 void pane(Figures& figures, std::uint64_t seed, Technique technique, double glow) {
     const double theta = pi / 3.0, R = 0.089186712802, share = 2.0 * R / (1.0 + R);
     figures.near("2R/(1 + R) at 60 degrees", share, 0.163767537, 1e-9);
@@ -138,7 +139,8 @@ void glass_in_furnace(Figures& figures, std::uint64_t seed, Technique technique)
     const Scene scene = maker.make();
     const Estimates found =
         probe(scene, seen(scene, {-0.2, -1.2, 0.4}, {0.5, 1.3, -0.4}), technique, {.samples = 128, .bounces = 80, .seed = seed});
-    // 0.5 a reflection on the wall, and at least every third bounce is one but for trapped light that the camera does not see.
+    // Each reflection by the wall takes 0.5, and at least every third bounce is one, except for trapped light that the
+    // camera does not see.
     figures.sampled("sum of K^i Le, i <= 80", found.reflected, 1.0, std::pow(0.5, 26));
 }
 

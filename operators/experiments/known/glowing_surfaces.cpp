@@ -1,10 +1,10 @@
-// Surfaces that emit and do something else as well: a sheet that lets light through, or a mirror, glows above or beside a floor,
-// and the sun, a lamp that is a point and a sky shine through it or off it. The floor does not see itself, so that it has
+// Surfaces that emit and also transmit or reflect: a sheet that transmits light, or a mirror, emits e above or beside a
+// floor, and the sun, a point lamp and a sky shine through it or off it. The floor does not see itself, so
 //
 //     K Le = ρ (E⊥ + e F + ∫ L cosθ/π),  K² Le = ρ ∫ f (L + …) cosθ/π
 //
-// from the sky and the lamps that it sees and from e, and then what came by way of the sheet, of which it passes or reflects
-// f(θ). The form factors are integrals over the sheet.
+// First comes the light from the sky and lamps that the floor sees and from e, and then the light by way of the sheet,
+// which passes or reflects the part f(θ). The form factors are integrals over the sheet.
 #include "core/base/frame.h"
 #include "core/material/fresnel.h"
 #include "operators/experiments/known/groups.h"
@@ -26,7 +26,7 @@ const Vec3 lamp_above(0.2, 0.1, 3.0), lamp_before(0.0, 0.1, 1.8);
 struct Sheet {
     const char* name;
     Surface surface;
-    std::function<double(double)> passes;  // f of cosθ
+    std::function<double(double)> passes;  // f as a function of cosθ
     bool is_mirror = false;
 };
 
@@ -64,7 +64,7 @@ Place place(const Sheet& sheet) {
 
 Scene scene_of(const Sheet& sheet, bool with_deltas) {
     SceneMaker maker;
-    // So large that nothing but the floor is seen in the sheet above.
+    // The floor is so large that nothing else is seen in the sheet above.
     maker.add(parallelogram({-5.5, -5.5, 0}, {11, 0, 0}, {0, 11, 0}), matte(floor_rho));
     const Place at = place(sheet);
     maker.add(parallelogram(at.corner, at.a, at.b), sheet.surface);
@@ -96,7 +96,8 @@ double over_sheet(const Sheet& sheet, const Vec3& p, const F& f) {
         0.0, 1.0);
 }
 
-// K Le and K² Le at a point of the floor. Walks from the camera do not find the sun, nor the lamp, through the sheet or in it.
+// K Le and K² Le at a point of the floor. Walks from the camera find neither the sun nor the lamp through the sheet or
+// in it.
 enum class Finds { sky, sky_and_seen_lamps, all };
 std::array<double, 2> exact(const Sheet& sheet, const Vec3& p, Finds finds) {
     const double F = over_sheet(sheet, p, [](double) { return 1.0; });
@@ -121,7 +122,7 @@ struct Look {
     Method method;
     std::uint64_t samples;
     Finds finds;
-    double error = 0.03;  // at most, of the standard error with the stated bias
+    double error = 0.03;  // upper limit on the relative standard error with the stated bias
 };
 
 void floor_below(Figures& figures, std::uint64_t seed, const Sheet& sheet, const Look& look) {

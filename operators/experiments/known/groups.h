@@ -8,7 +8,7 @@ namespace neumann::known {
 Cases furnace_cases();       // closed scenes whose surfaces are all alike
 Cases microfacet_cases();    // rough metals in a furnace
 Cases sphere_cases();        // K of rank one
-Cases two_patch_cases();     // K of two unknowns
+Cases two_patch_cases();     // K with two unknowns
 Cases direct_light_cases();  // form factors in closed form
 Cases cube_cases();
 Cases mirror_cases();

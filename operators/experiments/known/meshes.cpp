@@ -1,6 +1,6 @@
-// Bodies of many triangles, whose patches are clusters of them, by every method that reads fields: a furnace, K^i Le = ρ^i; a
-// convex body under a sky of 1, K Le = ρ and K² Le = 0; and the inside of a sphere of which a cap shines, K^i Le = 10 f ρ^i, f =
-// the cap's part of the area.
+// Bodies of many triangles, whose patches are clusters of them, by every method that reads fields: a furnace, K^i Le =
+// ρ^i; a convex body under a sky of 1, K Le = ρ and K² Le = 0; and the inside of a sphere with an emitting cap, K^i Le
+// = 10 f ρ^i, where f is the cap's part of the area.
 #include "core/base/frame.h"
 #include "core/geometry/geometry.h"
 #include "operators/experiments/known/groups.h"
@@ -24,7 +24,7 @@ void look(SceneMaker& maker, const Vec3& from, const Vec3& to) {
     maker.parts.film = {4, 4, 0, 0, 4, 4, BoxFilter()};
 }
 
-// `tessellation`: how far K^i Le may be, relative, from that of the round body.
+// `tessellation`: the largest relative deviation of K^i Le from that of the round body.
 void compare(Figures& figures, std::uint64_t seed, const Scene& scene, const Method& method, const std::vector<double>& exact,
              double tessellation) {
     const int bounces = static_cast<int>(exact.size());
@@ -66,7 +66,7 @@ void under_cap(Figures& figures, std::uint64_t seed, const Method& method) {
     look(maker, {0, 0, 0}, {0.3, 0.1, -1});
     const Scene scene = maker.make();
     const double shines = scene.geometry.area(cap), f = shines / (shines + scene.geometry.area(rest));
-    // 81,920 triangles lie 1e-4 of the radius below the sphere at most.
+    // The 81,920 triangles lie at most 1e-4 of the radius below the sphere.
     compare(figures, seed, scene, method, {10.0 * f * mesh_rho, 10.0 * f * mesh_rho * mesh_rho, 10.0 * f * std::pow(mesh_rho, 3)},
             1e-3);
 }

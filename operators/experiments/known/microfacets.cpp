@@ -1,5 +1,6 @@
-// Rough metals without absorption, hit once: GGX has known albedos, which are K Le of any furnace, and known terms in a sphere,
-// where a chord leaves and arrives at the same angle. Refined quadrature, error below 3e-11; checked by sampling visible normals.
+// Rough metals without absorption and with single scattering: GGX has known albedos, which are K Le of any furnace, and
+// known terms in a sphere, where a chord leaves and arrives at the same angle. The values are from refined quadrature,
+// with an error below 3e-11, checked by sampling visible normals.
 #include "core/base/frame.h"
 #include "operators/experiments/known/groups.h"
 #include "operators/experiments/known/quadrature.h"
@@ -11,7 +12,7 @@ namespace neumann::known {
 
 namespace {
 
-// K, K², K³ at `cosines`.
+// K[k]: K, K², K³ at `cosines`.
 struct RoughFurnace {
     double alpha;
     Masking masking;
@@ -67,7 +68,7 @@ Scene sphere(const Bsdf& bsdf) {
     maker.add(Sphere{{0.1, -0.2, 0.3}, 1.7, true}, made_of(bsdf, AreaLight(grey(1.0))));
     return maker.make();
 }
-// A point of the sphere, seen under an angle.
+// A start at a point of the sphere, seen at this cosine.
 StartPicker under(const Scene& scene, double mu) {
     const Vec3 n(0.36, 0.48, 0.8);
     const SurfacePoint p = surface_point(scene, Vec3(0.1, -0.2, 0.3) + 1.7 * n, -n);

@@ -1,5 +1,5 @@
-// Mirrors: light follows a single path, which geometry gives, and every term is a product along it. Samples have no variance,
-// whatever the technique for direct light.
+// Mirrors: light follows a single path, which geometry gives, and every term is a product along it. Samples have no
+// variance, whatever the technique for direct light.
 #include "core/material/retroreflector.h"
 #include "core/sampling/warp.h"
 #include "operators/experiments/known/groups.h"
@@ -35,13 +35,13 @@ void add_terms(Figures& figures, const Estimates& found, const std::function<dou
     figures.near("largest standard error", spread, 0.0, 0.0);
 }
 
-// A ray in a cube of mirrors goes straight on through the cube's mirror images. Le is the position, as a colour: a face is known by
-// its 0 or 1.
+// A ray in a cube of mirrors goes straight on through the cube's mirror images. Le is the position, as a colour, so
+// that a face is recognised by its 0 or 1.
 void unfold(Figures& figures, Technique technique, std::uint64_t seed) {
     const Vec3 origin(0.3, 0.4, 0.5), direction(1.0, 0.7, 0.45);
     constexpr int faces[] = {1, 3, 5, 0, 2, 1, 4, 0, 3, 1, 2, 5, 0, 3, 1, 0, 4, 2, 1, 3, 0,
                              5, 1, 2, 0, 4, 3, 1, 0, 2, 5, 1, 3, 0, 2, 4, 1, 0, 3, 1, 5};
-    // Where the unfolded ray crosses the i-th wall, folded back.
+    // The points where the unfolded ray crosses the i-th wall, folded back.
     std::vector<double> crossings;
     for (int axis = 0; axis < 3; ++axis)
         for (int wall = 1; wall <= 60; ++wall) crossings.push_back((wall - origin[axis]) / direction[axis]);
@@ -64,8 +64,8 @@ void unfold(Figures& figures, Technique technique, std::uint64_t seed) {
     figures.near("largest error of rho^i Le(face i)", worst, 0.0, 1e-12);
 }
 
-// In a sphere a ray goes round in equal steps α = π − 2θ: K^i Le = ρ^i (1 + cos 3iα) for Le = 1 + cos 3φ. The eigenvalues are
-// complex.
+// In a sphere a ray goes round in equal steps α = π − 2θ: K^i Le = ρ^i (1 + cos 3iα) for Le = 1 + cos 3φ. The
+// eigenvalues are complex.
 void rotate(Figures& figures, Technique technique, std::uint64_t seed) {
     const double theta = 37.0 * pi / 180.0, alpha = pi - 2.0 * theta;
     SceneMaker maker;
@@ -80,7 +80,7 @@ void rotate(Figures& figures, Technique technique, std::uint64_t seed) {
         probe(scene, seen(scene, Vec3(1, 0, 0) + 0.5 * towards, -towards), technique, probe_settings(technique, 60, seed));
     add_terms(figures, found, exact, 1e-10);
     if (technique == Technique::pointwise) return;
-    // Beyond term 60 there is at most 2 ρ^61/(1 − ρ).
+    // The terms beyond 60 add at most 2 ρ^61/(1 − ρ).
     double sum = 0.0;
     for (const Statistic& term : found.terms) sum += term.mean.r;
     figures.near("sum of 61 terms of the total", sum, 10.701126599366, 2.0 * std::pow(mirror_rho, 61) / (1.0 - mirror_rho));
@@ -104,11 +104,11 @@ void go_round(Figures& figures, Technique technique, std::uint64_t seed) {
         [](int i) { return i % 3 == 0 ? std::pow(mirror_rho, i) : 0.0; }, 8 * 36 * std::numeric_limits<double>::epsilon());
 }
 
-// m mirrors at 45° in a zigzag, and a lamp behind the last one: the only term is K^m Le = ρ^m Le, and those before it are
-// K^i Le = ρ^i e where the mirrors glow.
+// m mirrors at 45° in a zigzag, and a lamp behind the last one: the only term is K^m Le = ρ^m Le; if the mirrors emit
+// e, the terms before it are K^i Le = ρ^i e.
 void look_round_corners(Figures& figures, Technique technique, std::uint64_t seed, int m, double glow) {
     SceneMaker maker;
-    // Light is followed along +x into the first mirror, up to the second, along +x, …
+    // Follows the light along +x into the first mirror, up to the second, along +x, …
     Vec3 at(0.0), along(1, 0, 0), across(0, 0, 1);
     for (int k = 0; k < m; ++k) {
         maker.add(patch(at, glm::normalize(across - along), 0.3),
@@ -126,7 +126,7 @@ void look_round_corners(Figures& figures, Technique technique, std::uint64_t see
     }
 }
 
-// Retroreflectors: K = ρ T, so that K² = ρ² I shows T² = I, wherever and along whatever direction.
+// Retroreflectors: K = ρ T, so that K² = ρ² I shows T² = I, for any place and direction.
 void go_back(Figures& figures, Technique technique, std::uint64_t seed) {
     SceneMaker maker;
     const auto emitted = [](const ShadingPoint& p, const Vec3& w) { return grey(2.0 + p.position.x * p.position.y + 0.5 * w.z); };
@@ -144,8 +144,9 @@ void go_back(Figures& figures, Technique technique, std::uint64_t seed) {
         [=](int i) { return std::pow(mirror_rho, i) * (i % 2 ? second : first); }, 1e-12);
 }
 
-// Facing convex mirrors: an error grows by 1 + L/R + √((1 + L/R)² − 1) a bounce, 2 + √3 here, until it is the size of the mirrors.
-// The largest eigenvalue of a trip from mirror to mirror; measured between two rays that start 1e-12 apart.
+// Two convex mirrors that face each other: an error grows by 1 + L/R + √((1 + L/R)² − 1) a bounce, 2 + √3 here, until
+// it reaches the size of the mirrors. This is the largest eigenvalue of a trip from mirror to mirror; it is measured
+// between two rays that start 1e-12 apart.
 void diverge(Figures& figures, std::uint64_t) {
     SceneMaker maker;
     maker.add(Sphere{{-1.5, 0, 0}, 1.0, false}, made_of(mirror()));

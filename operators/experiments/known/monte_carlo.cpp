@@ -1,5 +1,5 @@
-// Properties of the estimators themselves: the variance of one sample where it is finite, the tail of the samples where it is not,
-// and how the error falls. All samples are independent here.
+// Properties of the estimators themselves: the variance of one sample if it is finite, the tail of the samples if it is
+// not, and the fall of the error. All samples are independent here.
 #include "operators/experiments/known/groups.h"
 #include "operators/experiments/known/scene_maker.h"
 #include "operators/paths/walk/furnace_walk.h"
@@ -10,7 +10,7 @@ namespace neumann::known {
 
 namespace {
 
-// The unit cube with ρ = 1 and an emitting ceiling, at the floor's centre: K^i Le = g_i.
+// The unit cube with ρ = 1 and an emitting ceiling has K^i Le = g_i at the floor's centre.
 constexpr double g1 = 0.23945647046077306, g2 = 0.13875246294508298;
 
 Scene cube() {
@@ -24,7 +24,8 @@ ProbeSettings independent(std::uint32_t samples, int bounces, std::uint64_t seed
 }
 StartPicker middle_of_floor(const Scene& scene) { return at(scene, {0.5, 0.5, 0}, {0, 0, 1}); }
 
-// A walk finds the light or does not, so the variance is g (1 − g); by uniform directions and by points on the light, quadrature.
+// A walk either finds the light or does not, so the variance is g (1 − g); for uniform directions and for points on the
+// light it is from quadrature.
 void variances(Figures& figures, std::uint64_t seed) {
     const Scene scene = cube();
     const Estimates by_walk = probe(scene, middle_of_floor(scene), Technique::bsdf, independent(65536, 2, seed));
@@ -42,7 +43,7 @@ void variances(Figures& figures, std::uint64_t seed) {
                     g1 * (1.0 - g1));
 }
 
-// On a wall, d below the ceiling: → 1/(24 π d²).
+// The variance on a wall at d below the ceiling tends to 1/(24 π d²).
 void near_an_edge(Figures& figures, std::uint64_t seed) {
     const Scene scene = cube();
     figures.sampled("0.5 below the light",
@@ -50,8 +51,8 @@ void near_an_edge(Figures& figures, std::uint64_t seed) {
                     0.00846772891327989);
 }
 
-// A tail of index 1.5 is known for one of infinite variance in 96% of such runs (1.5 (1 + 3.1/√250) < 2 within 1.8 standard
-// errors): fewer than half of six say so once in 40,000 times.
+// A tail of index 1.5 is recognised as one of infinite variance in 96% of such runs (1.5 (1 + 3.1/√250) < 2 within 1.8
+// standard errors): fewer than half of six runs recognise it once in 40,000 times.
 void says_infinite(Figures& figures, const std::string& quantity, const Scene& scene, const StartPicker& from, std::size_t term,
                    std::uint64_t seed) {
     double said = 0.0;
@@ -63,8 +64,8 @@ void says_infinite(Figures& figures, const std::string& quantity, const Scene& s
     figures.at_least(quantity + ": infinite variance in runs of 6", said, 3.0);
 }
 
-// Both points at random on squares that share an edge: P(X > x) = 0.0217927 x^−1.5, from x = 10 on to 2%. Counts are Poisson
-// numbers.
+// Both points are random on squares that share an edge: P(X > x) = 0.0217927 x^−1.5, from x = 10 on to 2%. Counts are
+// Poisson numbers.
 void shared_edge(Figures& figures, std::uint64_t seed) {
     SceneMaker maker;
     const std::uint32_t receiver = maker.add(parallelogram({0, 0, 0}, {1, 0, 0}, {0, 1, 0}), matte(1.0));
@@ -84,9 +85,10 @@ void shared_edge(Figures& figures, std::uint64_t seed) {
     says_infinite(figures, "K Le", scene, anywhere_on(scene, receiver), 1, seed);
 }
 
-// 95% intervals from 1000 samples there, two squares at right angles: where the variance is infinite they hold the truth in 75% of
-// cases, as 4000 repetitions elsewhere found, and miss it below; where directions find the light or not, in 95%. An interval from
-// the means of 64 batches is as good as one from all samples, for the largest sample makes either; 5% for what is left of that.
+// 95% intervals from 1000 samples between two squares at right angles. With infinite variance they hold the truth in
+// 75% of cases (from 4000 repetitions of another program) and otherwise lie below it; if directions find the light or
+// not, in 95%. An interval from the means of 64 batches is as good as one from all samples, because the largest sample
+// decides both; 5% is allowed for the remaining difference.
 void coverage(Figures& figures, std::uint64_t seed) {
     constexpr double form_factor = 0.20004377607540315, t = 1.998, repetitions = 400;
     SceneMaker maker;
@@ -109,8 +111,8 @@ void coverage(Figures& figures, std::uint64_t seed) {
     }
 }
 
-// The ceiling touches the walls, so from K² on light sampling has infinite variance. The alarm must be raised there and nowhere
-// else. Means of infinite variance have no interval and are not compared.
+// The ceiling touches the walls, so from K² on light sampling has infinite variance. The alarm must be raised there and
+// nowhere else. Means of infinite variance have no interval and are not compared.
 void touching_light(Figures& figures, std::uint64_t seed) {
     const Scene scene = cube();
     const auto upper = [](const LargestSamples& largest) {
@@ -124,7 +126,7 @@ void touching_light(Figures& figures, std::uint64_t seed) {
         const Estimates found = probe(scene, middle_of_floor(scene), technique, independent(16384, 2, seed));
         figures.at_least(fmt::format("K^2 Le by {}: tail index", short_name(technique)), upper(found.largest[2]), 2.0);
     }
-    // From 4e6 paths of another program, whose error is that of as many paths here.
+    // The value is from 4e6 paths of another program; its error follows from ours by the numbers of paths.
     ProbeSettings balance = independent(65536, 2, seed);
     balance.direct = DirectLightSettings{.direct = DirectLight::mis, .heuristic = Heuristic::balance};
     const Estimates mixed = probe(scene, middle_of_floor(scene), Technique::mis, balance);
@@ -134,7 +136,8 @@ void touching_light(Figures& figures, std::uint64_t seed) {
                  z_limit * error * std::sqrt(1.0 + static_cast<double>(mixed.samples) / 4e6));
 }
 
-// ⟨(mean of N − truth)²⟩ of 64 replicates falls like 1/N: slope −1 of its logarithm, with a standard deviation of 0.030.
+// ⟨(mean of N − truth)²⟩ of 64 replicates falls like 1/N: slope −1 of its logarithm, with a standard deviation of
+// 0.030.
 void slope(Figures& figures, std::uint64_t seed) {
     const Scene scene = cube();
     double x1 = 0.0, y1 = 0.0, xx = 0.0, xy = 0.0;
@@ -156,8 +159,8 @@ void slope(Figures& figures, std::uint64_t seed) {
     figures.near("slope of the mean squared error", (xy - x1 * y1) / (xx - x1 * x1), -1.0, z_limit * deviation);
 }
 
-// A furnace of albedo ρ and survival q: 1/(1 − q) vertices, the sum of (ρ/q)^k, variance finite exactly where ρ² < q. `variance`:
-// of the sum.
+// A furnace of albedo ρ and survival q: 1/(1 − q) vertices, the sum of (ρ/q)^k, a variance that is finite if and only
+// if ρ² < q. `variance`: of the sum.
 void roulette(Figures& figures, std::uint64_t seed, double rho, double q, double variance) {
     SceneMaker maker;
     maker.add(Sphere{{0, 0, 0}, 1.0, true}, glowing(rho, 1.0));
@@ -180,18 +183,19 @@ void roulette(Figures& figures, std::uint64_t seed, double rho, double q, double
             figures.near("variance", found.rest_variance.mean.r, variance, z_limit * found.rest_variance.standard_error.r);
     } else {
         figures.holds("second moment is infinite, by formula", std::isinf(known.second_moment));
-        // P(X > x) ~ x^−α, α = ln q/ln(q/ρ), but X takes only values that are a factor of ρ/q apart: Hill's estimate is then
-        // between (1 − q)/ln(ρ/q), where none of the kept samples equals the smallest, and 1/q of that, where all do that can.
+        // P(X > x) ~ x^−α, α = ln q/ln(q/ρ), but X takes only values that are a factor of ρ/q apart. Hill's estimate is
+        // then between (1 − q)/ln(ρ/q), if none of the kept samples equals the smallest, and 1/q of that, if as many as
+        // possible do.
         const auto tail = tail_index(found.largest.back());
         const double step = std::log(rho / q), lowest = (1.0 - q) / step, highest = lowest / q;
         figures.near("tail index, of steps", tail ? tail->alpha : 0.0, 0.5 * (lowest + highest),
                      0.5 * (highest - lowest) + z_limit * highest / std::sqrt(1000.0));
-        // An index near 2 is not told from 2 by a thousand samples.
+        // A thousand samples do not distinguish an index near 2 from 2.
         if (highest < 1.5) figures.at_most("its upper bound", tail ? tail->upper : 1e9, 2.0);
     }
 }
 
-// By albedo, survival is the albedo itself: the variance of Σ_{k≥1} is ρ/(1 − ρ)².
+// With roulette by albedo, survival is the albedo itself: the variance of Σ_{k≥1} is ρ/(1 − ρ)².
 void roulette_by_albedo(Figures& figures, std::uint64_t seed, double rho) {
     SceneMaker maker;
     maker.add(Sphere{{0, 0, 0}, 1.0, true}, glowing(rho, 1.0));
@@ -202,7 +206,7 @@ void roulette_by_albedo(Figures& figures, std::uint64_t seed, double rho) {
     figures.sampled("rays of a walk", {Rgb(found.rays_mean), Rgb(found.rays_error)}, 1.0 / (1.0 - rho));
     figures.sampled("sum of K^i Le, i > 0", found.rest, rho / (1.0 - rho));
     const double variance = rho / std::pow(1.0 - rho, 2);
-    // A geometric distribution has a kurtosis of 9 and a little more, so that 0.2% would take millions of walks.
+    // A geometric distribution has a kurtosis slightly above 9, so that 0.2% would take millions of walks.
     figures.near("its variance", found.rest_variance.mean.r, variance, z_limit * found.rest_variance.standard_error.r);
 }
 

@@ -1,6 +1,6 @@
-// Scenes that light leaves, under a sky of radiance 1. A convex body sees only the sky; a cavity, a wedge and a corner of infinite
-// walls have terms that are constant on them; a groove and a tube are computed by collocation, refined until the values no longer
-// change.
+// Scenes that light leaves, under a sky of radiance 1. A convex body sees only the sky; a cavity, a wedge and a corner
+// of infinite walls have terms that are constant on them; a groove and a tube are computed by collocation, refined
+// until the values no longer change.
 #include "operators/experiments/known/groups.h"
 #include "operators/experiments/known/scene_maker.h"
 
@@ -35,13 +35,14 @@ void add_convex(Cases& cases, const char* name, const Shape& body) {
                      }});
 }
 
-// A sphere with an opening of the fraction f of its area: K^i Le = ρ f (ρ (1 − f))^(i−1) everywhere inside, apparent emissivity of
-// the opening ε/(ε + f (1 − ε)), ε = 1 − ρ: 1 less what comes back out, the sum of K^i Le.
+// A sphere with an opening of the fraction f of its area: K^i Le = ρ f (ρ (1 − f))^(i−1) everywhere inside. The
+// apparent emissivity of the opening is ε/(ε + f (1 − ε)) with ε = 1 − ρ: 1 minus the light that comes back out, the
+// sum of K^i Le.
 void cavity(Figures& figures, std::uint64_t seed, double f, Technique technique) {
     const double rho = 0.5, height = 1.0 - 2.0 * f, rim = std::sqrt(1.0 - height * height);
     SceneMaker maker;
     maker.add(Sphere{{0, 0, 0}, 1.0, true}, matte(rho));
-    // What closes the opening emits 1 and is black.
+    // The disc that closes the opening emits 1 and is black.
     maker.add(Disk{{0, 0, height}, {rim, 0, 0}, {0, rim, 0}, {0, 0, -1}}, lamp(1.0));
     const Scene scene = maker.make();
     std::vector<double> exact;
@@ -53,8 +54,8 @@ void cavity(Figures& figures, std::uint64_t seed, double f, Technique technique)
     figures.sampled("1 - apparent emissivity", found.reflected, 1.0 - epsilon / (epsilon + f * (1.0 - epsilon)));
 }
 
-// Walls of size S seen from d away from the edge: the part of the sky that is missing is d/S times (1 + π/4)/π, of which no term
-// gets more.
+// Walls of size S seen at the distance d from the edge: the missing part of the sky is d/S times (1 + π/4)/π, an upper
+// limit for every term.
 constexpr double size = 1e4, missing = 0.5684 / size;
 
 void wedge(Figures& figures, std::uint64_t seed, double degrees, Technique technique) {
@@ -72,8 +73,8 @@ void wedge(Figures& figures, std::uint64_t seed, double degrees, Technique techn
         1, 4.0 * missing);
 }
 
-// Le = d^(-1/2) on both walls of a right angle, d from their edge, is an eigenfunction: K Le = λ Le, λ = ρ/4 B(3/4, 3/4). Walls
-// that end at L lose L^(-3/2)/(3/4 B) of it, 8e-7.
+// Le = d^(-1/2) on both walls of a right angle, d from their edge, is an eigenfunction: K Le = λ Le, λ = ρ/4 B(3/4,
+// 3/4). Walls that end at L lose L^(-3/2)/(3/4 B) of it, 8e-7.
 void power_law(Figures& figures, std::uint64_t seed, Technique technique) {
     const double rho = 0.8, eigenvalue = 0.25 * rho * std::beta(0.75, 0.75), brightest = 1e6, L = 1e4, lost = 1e-6;
     const auto radiance = [=](const SurfacePoint& p, const Vec3&) {
@@ -106,7 +107,8 @@ void corner(Figures& figures, std::uint64_t seed, Technique technique) {
         1, 8.0 * missing);
 }
 
-// 90°, sides of length 1. Here it is 100 long: the ends are seen under (1/50)³ of the cosine-weighted hemisphere, below 1e-5.
+// A groove of 90° with sides of length 1. Here it is 100 long: the ends are seen under (1/50)³ of the cosine-weighted
+// hemisphere, below 1e-5.
 void groove(Figures& figures, std::uint64_t seed, Technique technique) {
     const double rho = 0.9, half = 50.0;
     constexpr double g[3][3] = {{0.6212678125181664, 0.2510345548884595, 0.08430301090477688},
@@ -118,7 +120,7 @@ void groove(Figures& figures, std::uint64_t seed, Technique technique) {
     under_the_sky(maker);
     const Scene scene = maker.make();
     for (std::size_t k = 0; k < 3; ++k) {
-        // Points on the sky are mostly hidden, which takes many samples: in one place.
+        // Points on the sky are mostly hidden, which takes many samples, so only one place is tested.
         if (technique == Technique::mis && k != 1) continue;
         const double x = 0.25 * static_cast<double>(k + 1);
         const Estimates found =
@@ -129,7 +131,7 @@ void groove(Figures& figures, std::uint64_t seed, Technique technique) {
     }
 }
 
-// As long as wide, open at both ends.
+// A tube as long as wide, open at both ends.
 void tube(Figures& figures, std::uint64_t seed, Technique technique) {
     const double rho = 0.9;
     constexpr std::pair<double, double> g[] = {{.4811842985908824, .34164078649987384},
@@ -171,7 +173,7 @@ Cases open_cases() {
                 cases.push_back({fmt::format("open/wedge-{:g}/{}", degrees, name),
                                  "rho^i sin^2(a/2) cos^2(i-1)(a/2), walls of 1e4: 2e-4",
                                  [=](Figures& figures, std::uint64_t seed) { wedge(figures, seed, degrees, technique); }});
-        // Of points on all of the walls hardly any would be near.
+        // Of points on all of the walls, hardly any would be near.
         if (!looks_for_lights(technique))
             cases.push_back({"open/wedge-power-law/" + name, "eigenvalue rho/4 B(3/4, 3/4), walls of 500: 2.4e-4",
                              [technique](Figures& figures, std::uint64_t seed) { power_law(figures, seed, technique); }});

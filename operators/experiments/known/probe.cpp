@@ -19,7 +19,7 @@ namespace neumann::known {
 
 namespace {
 
-// Mean and squared deviations, under which equal samples have exactly no variance.
+// Mean and squared deviations in a form in which equal samples have exactly no variance.
 struct Welford {
     double n = 0.0;
     Rgb mean{0.0}, m2{0.0};
@@ -44,7 +44,7 @@ DirectLight direct_light(Technique technique) {
     return technique == Technique::bsdf ? DirectLight::bsdf : technique == Technique::light ? DirectLight::light : DirectLight::mis;
 }
 
-// The terms as functions, for the ways that are not walks.
+// The terms as functions, for techniques that are not walks.
 struct Series {
     std::optional<AreaSampler> surfaces;
     std::vector<ExitantField> terms;
@@ -73,9 +73,9 @@ struct Batch {
     std::uint64_t given_up = 0;
 };
 
-constexpr std::uint32_t together = 64;  // walks
+constexpr std::uint32_t together = 64;  // walks that advance together
 
-// Adds the samples from `begin` to before `end`, a multiple of `together` or fewer than that.
+// Adds samples begin … end − 1, in packets of `together`.
 void run_batch(const Scene& scene, const StartPicker& pick, Technique technique, const ProbeSettings& settings,
                const Series& series, const Sampler& sampler, std::uint32_t begin, std::uint32_t end, Batch& batch) {
     const auto quantities = static_cast<std::size_t>(settings.bounces) + 2;
@@ -92,7 +92,7 @@ void run_batch(const Scene& scene, const StartPicker& pick, Technique technique,
     std::vector<Rgb> samples(packet * quantities);
     Walkers walkers;
     TermSamples result{samples, batch.rays};
-    // From first vertices that are given instead of looked for.
+    // Walks whose first vertices are given.
     const auto walk_from_starts = [&](const auto& continuation) {
         walkers.begin(packet);
         result.rays[0] += packet;
@@ -142,10 +142,10 @@ const SobolPoints& sobol_points(std::uint32_t size) {
     return known.try_emplace(size, size).first->second;
 }
 
-// Samples of one place, batch by batch.
+// The samples of one place, batch by batch.
 class Probe {
 public:
-    // `most`: samples that a batch will ever have.
+    // `most`: the largest number of samples that a batch will ever have.
     Probe(const Scene& scene, const StartPicker& start, Technique technique, const ProbeSettings& settings, std::uint32_t most)
         : scene_(scene),
           start_(start),
@@ -155,7 +155,7 @@ public:
           series_(scene, technique, settings.bounces),
           batches_(batch_count, Batch(static_cast<std::size_t>(settings.bounces) + 2)) {}
 
-    // More than before, or the first ones.
+    // Samples up to this number in each batch.
     void sample_to(std::uint32_t samples) {
         oneapi::tbb::parallel_for(std::uint32_t{0}, std::uint32_t{batch_count}, [&](std::uint32_t b) {
             run_batch(scene_, start_, technique_, settings_, series_,
@@ -288,7 +288,8 @@ Estimates sharp_probe(const Scene& scene, const StartPicker& start, Technique te
         double largest = settings.rest_probability > 0.0 ? excess(found.rest) : 0.0;
         for (std::size_t i = 1; i < found.terms.size(); ++i) largest = std::fmax(largest, excess(found.terms[i]));
         if (largest <= 1.0 || samples >= most) return found;
-        // As many as the square of the error asks for, an eighth to all as many as there are, in whole packets of walks.
+        // The number grows as the squared error requires, by an eighth to all of the present one, in whole packets of
+        // walks.
         const double more = samples * std::clamp(largest * largest - 1.0, 0.125, 1.0);
         samples = std::min(samples + together * static_cast<std::uint32_t>(std::ceil(more / together)), most);
     }

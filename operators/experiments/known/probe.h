@@ -1,6 +1,6 @@
-// Estimates all terms K^i Le of a scene at one place, or on average over a set of places. Known answers are mostly of points, not
-// of pixels, so this runs walk() (walk.h) and the operators of pointwise directly. Standard errors come from 64 independent
-// batches.
+// Estimates all terms K^i Le of a scene at one place, or on average over a set of places. Known answers are mostly for
+// points, not pixels, so this runs walk() (walk.h) and the operators of pointwise directly. Standard errors come from
+// 64 independent batches.
 #pragma once
 
 #include "core/scene/scene.h"
@@ -15,7 +15,7 @@
 
 namespace neumann::known {
 
-// Where a sample starts: the terms are estimated at `point`, leaving along `wo`, and multiplied by `weight`.
+// The start of a sample: the terms are estimated at `point`, leaving along `wo`, and multiplied by `weight`.
 struct Start {
     SurfacePoint point;
     Vec3 wo;
@@ -35,18 +35,19 @@ StartPicker anywhere_on(const Scene& scene, std::uint32_t shape);
 // Uniform on all surfaces.
 StartPicker anywhere(const Scene& scene);
 
-// How the terms are estimated: by the walk with its three kinds of direct light, or by the series of operators, with R as an
-// integral over directions or over surfaces.
+// The way to estimate the terms: by the walk with its three kinds of direct light, or by the series of operators, with
+// R as an integral over directions or over surfaces.
 enum class Technique { mis, bsdf, light, pointwise, surfaces };
 // The techniques that can follow mirrors and glass.
 inline constexpr Technique specular_techniques[] = {Technique::mis, Technique::bsdf, Technique::light, Technique::pointwise};
 std::string name(Technique technique);
-// One word, for the names of cases.
+// The technique in one word, for the names of cases.
 std::string short_name(Technique technique);
-// The other techniques find a light by chance, with its form factor as the probability, and need many more samples.
+// Whether the technique samples lights. The others find a light by chance, with its form factor as the probability, and
+// need many more samples.
 inline bool looks_for_lights(Technique technique) { return technique == Technique::mis || technique == Technique::light; }
 
-// How walks go on: in directions sampled from the material, to points on all surfaces, or through mirrors alone.
+// The way walks go on: in directions sampled from the material, to points on all surfaces, or through mirrors alone.
 enum class GoingOn { material, surfaces, specular };
 
 inline constexpr int batch_count = 64;
@@ -76,7 +77,7 @@ inline Statistic scaled(const Statistic& s, double factor) { return {s.mean * fa
 struct Estimates {
     std::vector<Statistic> terms;              // K^i Le, i = 0 … N
     Statistic rest;                            // Σ_{i>N}
-    Statistic reflected;                       // Σ_{i≥1}, with the rest
+    Statistic reflected;                       // Σ_{i≥1}, including the rest
     std::vector<Statistic> variance;           // of one sample of each term; unbiased with independent samples only
     Statistic rest_variance;                   // likewise
     std::vector<double> rays;                  // per sample, for each term and the rest
@@ -88,8 +89,8 @@ struct Estimates {
 
 Estimates probe(const Scene& scene, const StartPicker& start, Technique technique, const ProbeSettings& settings);
 
-// Takes more samples until the standard errors of all terms from K Le on that are not 0, and of the rest if it is estimated, are at
-// most 0.19% of their values, or until a batch has `most` samples.
+// Takes more samples until the standard errors are at most 0.19% of the values, for all terms from K Le on that are not
+// 0 and for the rest if it is estimated, or until a batch has `most` samples.
 Estimates sharp_probe(const Scene& scene, const StartPicker& start, Technique technique, const ProbeSettings& settings,
                       std::uint32_t most = 1u << 17);
 

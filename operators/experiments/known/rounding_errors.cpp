@@ -1,9 +1,9 @@
-// Slow series added up naively and compensated, in float and in double, beside the bounds on their errors. u = ε/2 is the
-// unit roundoff.
+// Slow series added up naively and with compensation, in float and in double, compared with the bounds on their errors.
+// u = ε/2 is the unit roundoff.
 //
-//     terms multiplied one from another   u ρ/(1−ρ)      of the sum: term k has k roundings, and the mean of k is ρ/(1−ρ)
-//     added one after another             u n            n terms; or until the sum stops changing
-//     added with compensation             2 u
+//     each term from the previous one    u ρ/(1−ρ)      for the sum: term k has k roundings, and the mean of k is ρ/(1−ρ)
+//     added one after another            u n            for n terms, or until the sum stops changing
+//     added with compensation            2 u
 //
 // The exact sum is (1−ρ^n)/(1−ρ), with ρ after rounding.
 #include "operators/algebra/compensated_sum.h"
@@ -22,7 +22,7 @@ struct Sums {
     int stagnates = -1;                     // the first n with S_{n+1} = S_n
 };
 
-// ρ^0 … ρ^terms.
+// The errors of the sum of ρ^0 … ρ^terms.
 template <class Real>
 Sums add_up(double albedo, int terms) {
     using Values = Eigen::Matrix<Real, 1, 1>;
@@ -43,7 +43,7 @@ Sums add_up(double albedo, int terms) {
     return sums;
 }
 
-// `naive` and `stagnates`: in float, measured with another program.
+// `naive` and `stagnates`: in float, from another program.
 void add_furnace(Cases& cases, double rho, int terms, double change, double naive, int stagnates) {
     cases.push_back({fmt::format("rounding/furnace/albedo-{:g}", rho), "float arithmetic elsewhere; n u, u rho/(1 - rho)",
                      [=](Figures& figures, std::uint64_t) {
@@ -61,7 +61,8 @@ void add_furnace(Cases& cases, double rho, int terms, double change, double naiv
                      }});
 }
 
-// Where a loop ends that runs until the sum does not change any more, on the cube of 16 × 16 patches a face.
+// The number of terms after which a loop ends that runs until the sum no longer changes, on the cube of 16 × 16 patches
+// a face.
 void stagnation_of_cube(Figures& figures, std::uint64_t) {
     const Cube cube = symmetric_cube(16);
     const auto of = [&](double rho, int most) { return stagnation<float>(cube.channel(rho), cube.ceiling(), most).value_or(0); };
@@ -71,14 +72,14 @@ void stagnation_of_cube(Figures& figures, std::uint64_t) {
     // ρ^n < 2^-53/(1 − ρ).
     figures.near("double stagnates at, albedo 0.9", stagnation<double>(cube.channel(0.9), cube.ceiling(), 2000).value_or(0),
                  std::log(0x1p-53 / 0.1) / std::log(0.9), 10);
-    // 1/6 of the power, less what is left after 322 and 32221 terms.
+    // The sum of the terms has the power 1/(1 − ρ), up to ρ^n.
     for (const auto& [rho, n] : {std::pair{0.9, 400}, {0.999, 40000}}) {
         const DenseChannel K = cube.channel(rho);
         TermSeries series(K, cube.ceiling());
         for (int k = 0; k < n; ++k) series.advance();
         const Vector sum = series.sum();
         const double found = cube.factors.area.dot(sum) * (1.0 - rho);
-        // Rows of F sum to 1 but for 1e-14 or so, which 1/(1 − ρ) enlarges.
+        // Rows of F sum to 1 up to about 1e-14, which 1/(1 − ρ) enlarges.
         figures.near(fmt::format("double, compensated: power, albedo {:g}", rho), found, 1.0, 1e-13 / (1.0 - rho));
     }
 }

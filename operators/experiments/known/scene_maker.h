@@ -1,4 +1,4 @@
-// Scenes that are made by code.
+// Makes scenes by code.
 #pragma once
 
 #include "core/geometry/transformed.h"

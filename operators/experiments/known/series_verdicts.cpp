@@ -14,7 +14,8 @@ namespace neumann::known {
 
 namespace {
 
-// Mixed albedos, 16² patches a face: t_{n−1} against t_n; widths, the norm bound of S_n and its true tail relative to ‖L‖∞.
+// Mixed albedos, 16² patches a face: t_{n−1} against t_n; the width of the enclosure, the norm bound of S_n and its
+// true tail relative to ‖L‖∞.
 void enclosures_of_cube(Figures& figures, std::uint64_t) {
     struct Row {
         int n;
@@ -43,7 +44,7 @@ void enclosures_of_cube(Figures& figures, std::uint64_t) {
         figures.near(named("norm bound"), run.rows[static_cast<std::size_t>(row.n)].a_posteriori / exact.maxCoeff(), row.bound,
                      1e-9);
         figures.near(named("true tail"), (exact - run.sum).maxCoeff() / exact.maxCoeff(), row.tail, 1e-9);
-        // 1e-13 for rounding, which the enclosure leaves out.
+        // The tolerance of 1e-13 is for rounding, which the enclosure ignores.
         figures.holds(named("holds L"),
                       (found.low.array() <= exact.array() + 1e-13).all() && (found.high.array() >= exact.array() - 1e-13).all());
     }
@@ -83,7 +84,7 @@ void alternating(Figures& figures, std::uint64_t) {
     figures.near("L, outer", run.sum[1], .88209 / determinant, 1e-6 * (1 - .01791) / determinant);
 }
 
-// t_n = 0.5^n + 1e-6 · 0.99^n in two rooms: the ratio of the loud one predicts a tail 25 times too small at n = 20.
+// t_n = 0.5^n + 1e-6 · 0.99^n in two rooms: the ratio in the bright room predicts a tail 25 times too small at n = 20.
 void hidden_slow(Figures& figures, std::uint64_t) {
     const DenseChannel K = separate_rooms(0.5, 0.99);
     const Vector Le = vector({1, 1e-6});
@@ -99,8 +100,8 @@ void hidden_slow(Figures& figures, std::uint64_t) {
     figures.near("L, slow room", run.sum[1], 1e-4, 2e-7);
 }
 
-// Light that circles between three mirrors, and light behind twenty of them: the series must not end because terms are 0 at an
-// unknown, and must not be called divergent because its first terms do not fall.
+// Light that circles between three mirrors, and light behind twenty of them: the series must not end because terms are
+// 0 at an unknown, and must not be called divergent because its first terms do not fall.
 void zeros(Figures& figures, std::uint64_t) {
     const SeriesRun round = run_series(carousel(0.9), vector({1, 0, 0}), {.tolerance = 1e-9, .norm = 0.9});
     figures.said("period three: verdict", name(round.verdict), "converged");
@@ -114,7 +115,7 @@ void zeros(Figures& figures, std::uint64_t) {
     figures.said("periscope: why", periscope.why, "term 21 is 0, and so are all that follow");
 }
 
-// ‖K‖∞ = 1.6 and 2: both are warned of, but only the second series diverges, as K^i Le = ρ (mean ρ)^(i−1).
+// ‖K‖∞ = 1.6 and 2: both must raise a warning, but only the second series diverges, because K^i Le = ρ (mean ρ)^(i−1).
 void norm_above_one(Figures& figures, std::uint64_t) {
     const SeriesRun run = run_series(sphere_halves(1.6, 0.2), Vector::Ones(2), {.tolerance = 1e-12, .norm = 1.6});
     figures.said("albedos 1.6, 0.2: verdict", name(run.verdict), "converged");
@@ -155,8 +156,8 @@ void add_divergent(Cases& cases) {
                          }});
 }
 
-// Near-parallel plates, relative errors at the outer one after n terms. Aitken gains nothing over the plain sum, the ratio of terms
-// is 15 … 1.4, and Wynn, with as many terms as there are modes, is exact.
+// Near-parallel plates, relative errors at the outer one after n terms. Aitken gains nothing over the plain sum, the
+// ratio of terms gains a factor from 15 down to 1.4, and Wynn, with as many terms as there are modes, is exact.
 void extrapolation(Figures& figures, std::uint64_t) {
     const DenseChannel K = plates();
     Problem problem;

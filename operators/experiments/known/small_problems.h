@@ -1,4 +1,4 @@
-// Operators on a few unknowns, about which everything is known.
+// Operators on a few unknowns, with everything known about them.
 #pragma once
 
 #include "operators/solvers/matrix_channel.h"
@@ -26,7 +26,7 @@ inline DenseChannel plates() { return two_by_two(0.0, 0.9, 0.9 * 0.9801, 0.9 * 0
 // A disc of albedo 0.7 (first) under a hemisphere of albedo 0.5: F_dh = 1, F_hd = F_hh = 1/2.
 inline DenseChannel dome() { return two_by_two(0.0, 0.7, 0.25, 0.25, 1.0, 2.0); }
 
-// A furnace of three equal patches, uncoupled but for albedo: K = ρ F with F_uv = 1/3.
+// A furnace of three equal patches that see each other and themselves equally: K = ρ F with F_uv = 1/3.
 inline DenseChannel furnace(double rho) { return {DenseChannel::Matrix::Constant(3, 3, rho / 3), Vector::Ones(3)}; }
 
 // Three mirrors that send light round: K moves the value of each unknown to the next, times ρ.

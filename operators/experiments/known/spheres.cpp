@@ -1,10 +1,11 @@
-// Inside a diffuse sphere every point sees every other equally: G is constant, K has rank one, and for any ρ(p) and Le(p)
+// Inside a diffuse sphere every point sees every other equally: G is constant, K has rank one, and for any ρ(p) and
+// Le(p)
 //
 //     K^i Le (p) = ρ(p) <ρ>^(i−1) <Le>,   i ≥ 1,   <·> the mean over the sphere.
 //
-// A chord leaves and arrives at the same angle, so emission that depends on the angle enters by its mean over the cosine-weighted
-// hemisphere, <Le> = 2 ∫ Le(μ) μ dμ, and T is the identity on functions of the angle: with ρd/π and a mirror of ρs beside it, Le =
-// μ² gives K^i Le = ρs^i (μ² − ½) + (ρs + ρd)^i/2.
+// A chord leaves and arrives at the same angle, so emission that depends on the angle enters by its mean over the
+// cosine-weighted hemisphere, <Le> = 2 ∫ Le(μ) μ dμ, and T is the identity on functions of the angle: with a diffuse
+// part ρd and a mirror of ρs, Le = μ² gives K^i Le = ρs^i (μ² − ½) + (ρs + ρd)^i/2.
 #include "core/base/frame.h"
 #include "core/material/blend.h"
 #include "operators/experiments/known/groups.h"
@@ -22,11 +23,11 @@ const Vec3 center(0.3, -0.7, 1.1);
 constexpr double radius = 2.5;
 constexpr Technique all_techniques[] = {Technique::mis, Technique::bsdf, Technique::light, Technique::pointwise,
                                         Technique::surfaces};
-// Pointwise operators start again for every term.
+// Pointwise operators start again for every term, so they have fewer bounces.
 int bounces_of(Technique technique) { return technique == Technique::pointwise || technique == Technique::surfaces ? 3 : 8; }
 
 double height(const SurfacePoint& p) { return (p.position.z - center.z) / radius; }
-// The point in direction `n` from the centre.
+// A start at the point in direction `n` from the centre.
 StartPicker at_pole(const Scene& scene, const Vec3& n) { return at(scene, center + n * radius, -n); }
 Vec3 pole(double z) { return {std::sqrt(1.0 - z * z), 0, z}; }
 
@@ -95,7 +96,7 @@ Cases sphere_cases() {
                      sharp_probe(scene, at_pole(scene, pole(z)), Technique::bsdf, {.samples = 1024, .bounces = 5, .seed = seed}),
                      geometric(z > 0.0 ? 1.6 : 0.2, 0.9, 5));
              }});
-    // P(β > x) ~ x^−α with (1.6^α + 0.2^α)/2 = 1 for what roulette leaves alone: α = 1.25 where it cuts below 1.
+    // P(β > x) ~ x^−α with (1.6^α + 0.2^α)/2 = 1 for paths that roulette does not touch; α = 1.25 if it cuts below 1.
     cases.push_back(
         {"sphere/albedo-above-1/rest", "infinite variance: tail index below 2", [](Figures& figures, std::uint64_t seed) {
              const Scene scene = sphere(two_halves(1.6, 0.2), grey(1.0));

@@ -1,6 +1,6 @@
-// Series that fall slowly, start late, or fall at different rates in different places, by every method. In a closed room of albedo
-// 0.9 to 1.01, K^i Le = ρ^i, and the rest beyond bounce N is ρ^(N+1)/(1−ρ). From albedo 1 on there is no sum, and no method may
-// report one.
+// Series that fall slowly, start late, or fall at different rates in different places, by every method. In a closed
+// room of albedo 0.9 to 1.01, K^i Le = ρ^i, and the rest beyond bounce N is ρ^(N+1)/(1−ρ). From albedo 1 on there is no
+// sum, and no method may report one.
 #include "core/geometry/area_sampler.h"
 #include "operators/experiments/known/cube.h"
 #include "operators/experiments/known/groups.h"
@@ -34,7 +34,7 @@ Scene furnace_with_camera(double rho) {
 }
 double rest_of(double rho, int bounces) { return std::pow(rho, bounces + 1) / (1.0 - rho); }
 
-// Rendered in 64 replicates.
+// The mean of a term that was rendered in 64 replicates.
 Statistic mean_of(const BounceSeries& series, int i) {
     const MeanWithError m = series.means_of_term(static_cast<std::size_t>(i)).all;
     return {Rgb(m.mean), Rgb(m.standard_error)};
@@ -47,7 +47,7 @@ struct Sampling {
     Method method;
     std::uint32_t samples;  // per pixel, in each of 64 replicates
     int bounces = 8;
-    double largest_rest = 0.0;  // albedo up to which the rest is sampled to 0.2%
+    double largest_rest = 0.0;  // largest albedo at which the rest is sampled to 0.2%
 };
 std::vector<Sampling> samplings() {
     return {{method::Walk{}, 16, 8, 0.9},
@@ -64,7 +64,7 @@ void by_sampling(Figures& figures, std::uint64_t seed, const Sampling& sampling,
     const Scene scene = furnace_with_camera(rho);
     Goal goal{.bounces = sampling.bounces, .samples = batch_count * sampling.samples, .replicates = batch_count, .seed = seed};
     const BounceSeries found = render(scene, sampling.method, goal);
-    // All paths but those by way of mirrors end after the first reflection.
+    // If only mirrors continue paths, all others end after the first reflection.
     const bool only_direct = found.paths == Paths::specular;
     for (int i = 1; i <= sampling.bounces; ++i)
         if (i <= 2 || i == sampling.bounces)
@@ -73,7 +73,7 @@ void by_sampling(Figures& figures, std::uint64_t seed, const Sampling& sampling,
     figures.near("samples that are no numbers", static_cast<double>(std::get<PathRecord>(found.record).health->non_finite()), 0.0,
                  0.0);
     if (sampling.largest_rest < rho) return;
-    // A geometric distribution: the standard error is 1.05/√(samples) of it where every walk goes on.
+    // The rest has a geometric distribution: its relative standard error is 1.05/√(samples) if every walk goes on.
     goal.samples = batch_count * 2048;
     Method independent = sampling.method;
     std::visit(
@@ -85,8 +85,8 @@ void by_sampling(Figures& figures, std::uint64_t seed, const Sampling& sampling,
                     rest_of(rho, sampling.bounces));
 }
 
-// Whether the walks show that the series converges. They do not from albedo 1 on, nor at 0.999999, where the series is longer than
-// the walks are followed.
+// Checks whether the walks show that the series converges. They do not from albedo 1 on, nor at 0.999999, where the
+// series is longer than the walks are followed.
 void by_pilot(Figures& figures, std::uint64_t seed, double rho) {
     const Scene scene = furnace_with_camera(rho);
     const Pilot pilot(scene, {}, seed);
@@ -119,7 +119,7 @@ void by_fields(Figures& figures, std::uint64_t seed, const Method& method, doubl
     }
 }
 
-// Every solver gives (I − K)⁻¹ Le, whose power is 1/(1−ρ) times that of Le, or says that it does not.
+// Every solver must either give (I − K)⁻¹ Le, whose power is 1/(1−ρ) times that of Le, or report that it does not.
 void by_solvers(Figures& figures, std::uint64_t, double rho) {
     const Cube cube = symmetric_cube(8);
     const DenseChannel K = cube.channel(rho);
@@ -198,8 +198,8 @@ void chain_of_rooms(Figures& figures, std::uint64_t) {
     }
 }
 
-// Two rooms with a door ajar between them. The light is in one; the point is in the other and sees neither the light nor the
-// surfaces that it shines on. All emitted light is absorbed: Σ_{i≥1} ∫ (1 − ρ)/ρ K^i Le dA = ∫ Le dA.
+// Two rooms with a door ajar between them. The light is in one; the point is in the other and sees neither the light
+// nor the surfaces that it shines on. All emitted light is absorbed: Σ_{i≥1} ∫ (1 − ρ)/ρ K^i Le dA = ∫ Le dA.
 Scene rooms_with_door(double rho) {
     SceneMaker maker;
     const auto add = [&](const TriangleMesh& mesh) { maker.add(mesh, matte(rho)); };
@@ -221,7 +221,7 @@ Scene rooms_with_door(double rho) {
     add(flipped(parallelogram({1, 0, 0}, {0.1, 0, 0}, {0, 0, 0.5})));
     add(parallelogram({1, 0.15, 0}, {0.1, 0, 0}, {0, 0, 0.5}));
     maker.add(parallelogram({1.3, 0.6, 0.999}, {0, 0.3, 0}, {0.3, 0, 0}), glowing(rho, 10.0));
-    // Its back.
+    // This is the back of the light.
     add(flipped(parallelogram({1.3, 0.6, 0.999}, {0, 0.3, 0}, {0.3, 0, 0})));
     return maker.make();
 }
@@ -229,7 +229,7 @@ Scene rooms_with_door(double rho) {
 void light_behind_a_door(Figures& figures, std::uint64_t seed) {
     const double rho = 0.8, emitted = 10.0 * 0.3 * 0.3;
     const Scene scene = rooms_with_door(rho);
-    // On the wall beside the door.
+    // The place is on the wall beside the door.
     const StartPicker here = at(scene, {1.0, 0.9, 0.2}, {-1, 0, 0});
     const Estimates found =
         probe(scene, here, Technique::mis, {.samples = 8192, .bounces = 4, .rest_probability = 1.0, .seed = seed});
@@ -263,8 +263,8 @@ void light_behind_a_door(Figures& figures, std::uint64_t seed) {
     figures.near("matrix: absorbed/emitted", power, 1.0, 0.05);
 }
 
-// ρ = 0.5 with Le = 1 and ρ = 0.99 with Le = 1e-6 do not see each other: over both, t_n = 0.5^n + 1e-6 · 0.99^n. A sixteenth of
-// each net starts in the first, which has next to nothing of the rest, with 16 times the weight.
+// ρ = 0.5 with Le = 1 and ρ = 0.99 with Le = 1e-6 do not see each other: over both, t_n = 0.5^n + 1e-6 · 0.99^n. A
+// sixteenth of each net starts in the first, which has almost nothing of the rest, with 16 times the weight.
 void two_furnaces(Figures& figures, std::uint64_t seed) {
     SceneMaker maker;
     maker.add(make_cube(Mat4(1.0), true), glowing(0.5, 1.0));

@@ -1,5 +1,6 @@
-// Two surfaces, each of which sees itself and the other equally from all its points: K = [ρ1 F11, ρ1 F12; ρ2 F21, ρ2 F22] is exact.
-// Values are constant on each surface, up to the rim where they meet. One eigenvalue is negative, so the terms alternate.
+// Two surfaces, each of which sees itself and the other equally from all its points: K = [ρ1 F11, ρ1 F12; ρ2 F21, ρ2
+// F22] is exact. Values are constant on each surface, up to the rim where they meet. One eigenvalue is negative, so the
+// terms alternate.
 //
 //     concentric spheres, inner seen from outside:  F12 = 1,  F21 = (r1/r2)²,  F22 = 1 − F21;
 //     a sphere closed by a disc, with the fraction f of the sphere's area:  F_dd = 0, F_ds = 1, F_sd = 1 − f, F_ss = f.
@@ -24,7 +25,7 @@ std::array<std::vector<double>, 2> terms_of(const DenseChannel& K, const Vector&
     return result;
 }
 
-// The matrix, against the published figures; and its eigenvalues, (tr ± √(tr² − 4 det))/2.
+// Adds the matrix, compared with published figures, and its eigenvalues, (tr ± √(tr² − 4 det))/2.
 void add_matrix(Cases& cases, const std::string& name, DenseChannel (*matrix)(), std::vector<std::array<double, 2>> known,
                 std::array<const char*, 2> surfaces) {
     cases.push_back({"two-patches/" + name + "/matrix", "2 x 2 matrix: exact", [=](Figures& figures, std::uint64_t) {

@@ -1,4 +1,4 @@
-// Camera rays of all pixels, for who estimates light along them.
+// Camera rays of all pixels, for code that estimates light along them.
 #pragma once
 
 #include "core/scene/camera_sample.h"
@@ -12,10 +12,10 @@ namespace neumann {
 struct CameraRays {
     std::vector<CameraRay> rays;
     std::vector<Pixel> pixels;
-    std::vector<double> weights;  // of the film's filter, times the sensor's response
+    std::vector<double> weights;  // weight of the film's filter, times the sensor's response
 };
 
-// Those of samples first … first + count − 1 of every pixel: sample by sample, and in each of them row by row.
+// The rays of samples first … first + count − 1 of every pixel: sample by sample, and in each of them row by row.
 CameraRays camera_rays(const Scene& scene, std::uint64_t first, std::uint64_t count, std::uint64_t seed);
 
 }  // namespace neumann

@@ -9,7 +9,7 @@ std::vector<ComparedCrop> compare_crops(const std::vector<StudyRun>& runs, const
                                         std::size_t found, const std::function<Image(std::size_t n)>& picture) {
     struct Repeats {
         std::size_t method;
-        std::vector<std::size_t> runs;  // at its largest budget
+        std::vector<std::size_t> runs;  // with its largest budget
     };
     std::vector<Repeats> methods;
     std::vector<Image> maps;

@@ -1,4 +1,4 @@
-// Parts of the sum of bounces, as each method shows them with its largest budget, and how wrong they are.
+// Crops of the sum of bounces, by each method with its largest budget, and their errors.
 #pragma once
 
 #include "operators/experiments/study/differing_places.h"
@@ -15,13 +15,13 @@ struct MethodCrop {
 
 struct ComparedCrop {
     Crop place;
-    bool is_given = false;  // and not found by its differences
+    bool is_given = false;  // false: found by its differences
     Estimate reference;
     std::vector<MethodCrop> methods;
 };
 
-// The given crops, which must be within the picture, and then `found` more where methods differ most. `picture(n)` reads the sum of
-// the n-th run. Methods without a point are left out.
+// The given crops, which must be within the picture, and then `found` more in which methods differ most. `picture(n)`
+// reads the sum of the n-th run. Methods without a point are left out.
 std::vector<ComparedCrop> compare_crops(const std::vector<StudyRun>& runs, const std::vector<StudyPoint>& points,
                                         const StudyPlan& plan, const Estimate& reference, const std::vector<Crop>& given,
                                         std::size_t found, const std::function<Image(std::size_t n)>& picture);

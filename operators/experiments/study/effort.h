@@ -32,10 +32,11 @@ bool patches_are_given(const Method& method);
 // An effort with these samples per pixel, and the patches and rays of the level with the nearest number of samples.
 Effort field_effort_of_samples(std::uint64_t samples);
 
-// The nearest of 1, 2, … 8 and then (8 + j) 2^k, j < 8. Such a number is at least four replicates of 2 to 32 points, and
-// neighbouring ones differ by at most an eighth, which is finer than what a render by itself rounds to (rendered_series.h).
+// The nearest of 1, 2, … 8 and then (8 + j) 2^k, j < 8. Such a number is at least four replicates of 2 to 32 points,
+// and neighbouring ones differ by at most an eighth, which is finer than the steps to which a render rounds by itself
+// (rendered_series.h).
 std::uint64_t whole_nets(double samples);
-// The number of these replicates; nothing if it is another number.
+// The number of replicates for a result of whole_nets(); nothing for another number.
 std::optional<std::uint32_t> replicates_of_nets(std::uint64_t samples);
 
 // The level, at least 0, that takes this many seconds. `measured`: seconds of levels 0, 1, …, at least one. Between these the
@@ -52,12 +53,12 @@ double field_growth(std::span<const double> measured);
 // level took `seconds`, returns the level below the next integer one that takes the budget.
 double corrected_level(double level, double seconds, double budget);
 
-// Whether the time differs from the budget by more than a tenth, too much for an equal-time comparison.
+// Whether the time differs from the budget by more than a tenth, which is too much for an equal-time comparison.
 bool misses(double seconds, double budget);
 
 // The efforts of ascending levels. Each effort is larger than the previous one, if only by the smallest step.
 std::vector<Effort> sampling_efforts(std::span<const double> levels);
-// patches_given: the number of patches is fixed and not part of the effort; everything else grows in powers of two.
+// `patches_given`: the number of patches is fixed and not part of the effort; everything else grows in powers of two.
 std::vector<Effort> field_efforts(std::span<const double> levels, bool patches_given);
 
 // A different seed for each method, budget and repeat, below 2^48, so that JSON numbers represent it exactly. The reference has a

@@ -28,7 +28,7 @@ struct PointSummary {
     WithError mse, rmse, rel_mse;                        // errors of mse and rmse include those of repeats and of the reference
     bool resolved = false;                               // the MSE is larger than the noise in it
     WithError variance, bias_squared;
-    double bias_half_width = 0.0;  // of the 95% interval of bias², Student's t; it holds the truth in 93.5% to 98.5%
+    double bias_half_width = 0.0;  // of the 95% interval of bias², Student's t; in truth it covers 93.5% to 98.5%
     bool biased = false;           // 0 is outside of the 99.9% interval, which is wide because many are tested
     double efficiency = 0.0;       // 1 / (V T)
     double merit = 0.0;            // 1 / (MSE T), bias included; with MSE plus two standard errors if it is not resolved

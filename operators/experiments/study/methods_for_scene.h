@@ -1,4 +1,4 @@
-// The methods that a study compares where none is named: all that can do the scene.
+// The methods that a study compares if none is named: all that can render the scene.
 #pragma once
 
 #include "operators/experiments/study/study_method.h"
@@ -12,8 +12,9 @@ struct MethodsForScene {
     std::vector<std::string> left_out;  // the messages of those that refuse the scene, which begin with their names
 };
 
-// All but auto and mixed, which are made of the others, classic, which leaves paths out, and pointwise, which is slow and what the
-// others are tested with. Each is tried once. Throws InputError if none can do the scene. Returns nothing if it was stopped.
+// All methods except auto and mixed, which consist of others, classic, which leaves paths out, and pointwise, which is
+// slow and a test of the others. Each is tried once. Throws InputError if none can render the scene. Returns nothing if
+// it was stopped.
 std::optional<MethodsForScene> methods_for_scene(int bounces, std::uint64_t seed, const Scene& scene, const Pilot& pilot,
                                                  const Watch& watch);
 

@@ -11,7 +11,7 @@ namespace neumann {
 
 namespace {
 
-// So many rays at once are enough that the cost of a call does not count.
+// This many rays at once make the cost of a call negligible.
 constexpr std::uint64_t rays_at_once = 1u << 16;
 
 }  // namespace

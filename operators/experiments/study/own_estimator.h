@@ -1,4 +1,5 @@
-// A method from outside: an estimator of the terms along camera rays, K^i Le(ray) = E[sample of bounce i].
+// A method from outside of the program: an estimator of the terms along camera rays, K^i Le(ray) = E[sample of bounce
+// i].
 #pragma once
 
 #include "core/scene/camera_sample.h"
@@ -12,12 +13,12 @@
 
 namespace neumann {
 
-// Samples of bounces 0 … N of each ray, all of a ray together. The seed is another one in each call.
+// Returns samples of bounces 0 … N of each ray, all of a ray together. The seed differs in each call.
 using OwnEstimator = std::function<std::vector<Rgb>(std::span<const CameraRay> rays, std::span<const Pixel> pixels, int bounces,
                                                     std::uint64_t seed)>;
 
-// The means over so many samples of each pixel, as a study compares them: pictures without errors, whose rays are those from the
-// camera. Throws InputError if the estimator returns values that are not finite.
+// The means over `samples` of each pixel, as a study compares them: pictures without errors, with camera rays as the
+// only rays. Throws InputError if the estimator returns values that are not finite.
 BounceSeries render_by_own(const OwnEstimator& estimator, const Scene& scene, std::uint64_t samples, int bounces,
                            std::uint64_t seed, const Watch& watch);
 

@@ -1,14 +1,14 @@
 // Separates the error of a picture into bias and variance, from repeats with independent random numbers.
 //
-// With x_j the picture of repeat j of R, r̂ = r + η the reference, of which only η's variance v is known, ⟨a, b⟩ the mean of a·b
-// over pixels and channels, and G_jk = ⟨x_j − r̂, x_k − r̂⟩:
+// x_j is the picture of repeat j of R, r̂ = r + η the reference, of which only η's variance v is known, ⟨a, b⟩ the mean
+// of a·b over pixels and channels, and G_jk = ⟨x_j − r̂, x_k − r̂⟩:
 //
 //     MSE    = mean_j G_jj − ⟨v⟩            E = bias² + variance
 //     bias²  = mean_{j≠k} G_jk − ⟨v⟩        E = ⟨E x − r, E x − r⟩; a U-statistic, so it may come out negative
 //     V      = MSE − bias²                  E = the variance of a picture, averaged over it
 //
-// The expected noise of the reference is subtracted. What remains of it is common to all repeats, and to everything that is
-// compared with this reference; its error is reported separately from the error over repeats.
+// The expected noise of the reference is subtracted. The rest of that noise is common to all repeats, and to everything
+// that is compared with this reference; its error is reported separately from the error over repeats.
 #pragma once
 
 #include "core/image/image.h"
@@ -22,7 +22,7 @@ struct WithError {
 };
 
 struct ErrorStatistics {
-    std::vector<double> mse, rel_mse;  // of each repeat, ⟨v⟩ subtracted; relMSE as in Metrics
+    std::vector<double> mse, rel_mse;  // for each repeat, ⟨v⟩ subtracted; relMSE as in Metrics
     // Means over repeats, with standard errors over repeats.
     WithError mean_mse, mean_rel_mse;
     WithError variance;      // V

@@ -1,9 +1,10 @@
-// Chooses which of two unbiased methods renders the reference: the one that, at equal cost, is less far behind the other in its
-// worst bounce. With V_i the variance of bounce i, averaged over the picture, and C the cost of all bounces together
+// Chooses which of two unbiased methods renders the reference: the one that, at equal cost, is less far behind the
+// other in its worst bounce. V_i is the variance of bounce i, averaged over the picture, and C the cost of all bounces
+// together:
 //
 //     ρ_i = V_i C / (V'_i C')        the first method over the second
 //
-// the first method is behind by max ρ, the second one by 1 / min ρ.
+// The first method is behind by max ρ, the second one by 1 / min ρ.
 #pragma once
 
 #include "operators/experiments/study/study_method.h"
@@ -13,9 +14,9 @@
 
 namespace neumann {
 
-// V_i C of every bounce, in radiance² · rays; the cost is in rays, because these, unlike seconds, are the same on any machine.
-// Infinite if the tail index says that V is, and if all samples are zero, so that V is unknown. Throws InputError for a single
-// replicate.
+// V_i C of every bounce, in radiance² · rays; the cost is in rays, because these, unlike seconds, are the same on any
+// machine. Infinite if the tail index shows that V is, and if all samples are zero, so that V is unknown. Throws
+// InputError for a single replicate.
 std::vector<double> variance_times_rays(const BounceSeries& series);
 
 struct VarianceRatio {

@@ -28,7 +28,7 @@ std::optional<double> deviation_of_repeats(const std::vector<StudyMethod>& metho
     constexpr int level = 2;
     double most = 0.0;
     for (const StudyMethod& method : methods) {
-        // The spread of the pictures is the same whatever they are compared with.
+        // The spread of the pictures does not depend on the reference.
         PictureErrors errors({Image(scene.film.crop_width, scene.film.crop_height), {}});
         for (std::uint64_t j = 0; j < runs; ++j) {
             const Effort effort = has_fields(method.method) ? field_effort(0) : sampling_effort(level);

@@ -12,7 +12,7 @@ namespace neumann {
 struct StudyMethod {
     std::string name;  // as given
     Method method;
-    OwnEstimator own = {};  // takes the place of the method, if there is one
+    OwnEstimator own = {};  // used instead of the method, if it is set
 };
 
 // Reads a method like read_method(). Throws InputError if it is unknown or has no place in a study.

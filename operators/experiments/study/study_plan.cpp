@@ -11,8 +11,8 @@ namespace {
 // Limits for the runs that measure speed, in seconds. Shorter runs are too uncertain, and runs below this part of the largest
 // budget are too different from it. For methods whose time is linear in the samples, longer runs give no more information.
 constexpr double shortest_measurement = 0.05, part_of_budget = 0.25, longest_measurement = 2.0;
-// Without --budgets: the number of budgets, each twice the one before. The first one is at least this many seconds, and gives every
-// method 4 samples.
+// Without --budgets: the number of budgets, each twice the previous one. The first one is at least this many seconds,
+// and gives every method 4 samples.
 constexpr int default_budgets = 4;
 constexpr double least_default_budget = 0.1;
 // The reference has this many times the samples of the largest budget.
@@ -22,7 +22,7 @@ Effort effort_of(const StudyMethod& method, int level) {
     return has_fields(method.method) ? field_effort(level) : sampling_effort(level);
 }
 
-// Times of runs: for the first levels the part that grows with the level, and for one run the part that does not.
+// The times of runs: for each of the first levels the part that grows with the level, and once the part that does not.
 struct Measurement {
     std::vector<double> seconds;
     double setup = 0.0;

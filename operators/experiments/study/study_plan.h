@@ -1,4 +1,4 @@
-// How much work each method of a study does for each budget.
+// The amount of work that each method of a study does for each budget.
 #pragma once
 
 #include "operators/experiments/study/study_method.h"
@@ -7,12 +7,13 @@
 
 namespace neumann {
 
-// Seconds of a run, growing, or samples per pixel. If both are empty, seconds are chosen that suit all methods.
+// The seconds of a run, in ascending order, or samples per pixel. If both are empty, seconds are chosen that suit all
+// methods.
 struct StudyBudgets {
     std::vector<double> seconds = {};
     std::vector<std::uint64_t> samples = {};
     std::optional<std::uint64_t> reference_samples =
-        {};  // per pixel, of a reference that is rendered; the default depends on the budgets
+        {};  // per pixel, for a reference that is rendered; the default depends on the budgets
 };
 
 struct StudyPlan {
@@ -20,11 +21,12 @@ struct StudyPlan {
     bool budgets_are_samples = false;
     std::vector<std::vector<Effort>> efforts;  // method by method, budget by budget
     std::uint64_t reference_samples = 0;
-    // What is expected, in seconds: all methods and budgets once, and a reference by walk.
+    // The expected seconds: of all methods and budgets once, and of a reference by walk.
     double repeat_seconds = 0.0, reference_seconds = 0.0;
 };
 
-// Measures by short runs how fast each method is; these also find what a method refuses. Returns nothing if it was stopped.
+// Measures the speed of each method by short runs; these also show what a method refuses. Returns nothing if it was
+// stopped.
 std::optional<StudyPlan> plan_study(const StudyBudgets& wanted, const std::vector<StudyMethod>& methods, int bounces,
                                     std::uint64_t seed, const Scene& scene, const Pilot& pilot, const Watch& watch);
 

@@ -1,5 +1,5 @@
-// The runs of a study, and what they say: for each method and budget the errors of its repeats, and for each picture the methods in
-// order of rank.
+// The runs of a study and their evaluation: for each method and budget the errors of its repeats, and for each picture
+// the methods in order of rank.
 #pragma once
 
 #include "operators/experiments/study/method_summary.h"
@@ -15,16 +15,17 @@ struct StudyRun {
     std::uint64_t seed = 0, samples = 0, patches = 0,
                   directions = 0;  // patches and directions as requested; 0 if the method has none
     double setup_seconds = 0.0, seconds = 0.0, peak_memory = 0.0;
-    std::vector<std::uint64_t> rays;     // of each bounce 0 … N
-    std::vector<double> mean;            // of each bounce, and of their sum
-    std::vector<double> discretisation;  // relative, as the method estimates it, for the same pictures; empty if there is none
-    std::string variance;                // a letter for each bounce: f finite, i infinite, ? unknown
+    std::vector<std::uint64_t> rays;  // of each bounce 0 … N
+    std::vector<double> mean;         // of each bounce, and of their sum
+    // relative, as the method estimates it, for the same pictures; empty if there is none
+    std::vector<double> discretisation;
+    std::string variance;  // a letter for each bounce: f finite, i infinite, ? unknown
     std::vector<std::string> warnings;
 
     std::uint64_t all_rays() const;
 };
 
-// What a render of `asked`, the method with its effort, was; without its place in the study and its memory.
+// Describes a render of `asked`, the method with its effort; its place in the study and its memory are not set.
 StudyRun study_run(const BounceSeries& series, const Method& asked);
 
 // The method, budget and repeat of the n-th run. The outer loop is over repeats, so that other load on the machine affects all
@@ -42,11 +43,12 @@ struct StudyPoint {
     std::size_t method() const { return runs.front().method; }
     std::size_t budget() const { return runs.front().budget; }
     RepeatCosts costs() const;
-    // Over the runs; the last picture is the sum.
+    // The mean over the runs; the last picture is the sum.
     double mean_rays(std::size_t picture) const;
     double largest_memory() const;
     std::optional<double> mean_discretisation(std::size_t picture) const;
-    // Whether the variance is infinite according to more than half of the runs that could tell; for the sum: of any bounce.
+    // Whether the variance is infinite according to more than half of the runs that can tell; for the sum: of any
+    // bounce.
     bool infinite_variance(std::size_t picture) const;
 };
 
@@ -72,8 +74,8 @@ struct StudiedPicture {
     double error = 0.0;                  // the RMSE for which seconds_to_error is computed
     std::vector<StudiedMethod> methods;  // best first
 };
-// For each picture of the reference; empty if there are no points. `relative_error`: the RMSE for which seconds_to_error is
-// computed, relative to the reference; by default one that all methods reach.
+// The ranked methods for each picture of the reference; empty if there are no points. `relative_error`: the RMSE for
+// which seconds_to_error is computed, relative to the reference; by default one that all methods reach.
 std::vector<StudiedPicture> summarise(const std::vector<StudyPoint>& points, const StudyPlan& plan,
                                       const std::vector<Estimate>& reference, std::optional<double> relative_error);
 

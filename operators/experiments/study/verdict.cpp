@@ -9,7 +9,7 @@ namespace neumann {
 
 namespace {
 
-// MSE T, of independent errors.
+// MSE T; the errors of both are independent.
 WithError time_to_error(const PointSummary& point) {
     const double mse = std::max(point.mse.value, 0.0), seconds = point.seconds.value;
     return {mse * seconds, std::hypot(seconds * point.mse.standard_error, mse * point.seconds.standard_error)};

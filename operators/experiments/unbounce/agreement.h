@@ -1,4 +1,4 @@
-// The inverse beside the forward series: Cⁿ L against Kⁿ Le of the same scene under all lights.
+// Compares the inverse with the forward series: Cⁿ L with Kⁿ Le of the same scene under all lights.
 #pragma once
 
 #include "operators/experiments/unbounce/unbounce.h"
@@ -9,18 +9,19 @@
 namespace neumann {
 
 struct TermAgreement {
-    MeanWithError forward, difference;  // of means over pixels and channels; difference: backward less forward
-    double discretisation = 0.0;        // as Unbounced says of the backward mean
-    // √(Σ (b − f)² / Σ f²) over regions, weighted with their sizes, and channels; the second is what noise alone makes of it.
+    MeanWithError forward, difference;  // means over pixels and channels; difference: backward less forward
+    double discretisation = 0.0;        // of the backward mean, as in Unbounced
+    // √(Σ (b − f)² / Σ f²) over regions, weighted with their sizes, and channels; and the value of this that noise
+    // alone would give.
     double relative_difference = 0.0, by_noise = 0.0;
-    // Of the difference, what light makes that comes by way of surfaces that are not seen; known of rendered scenes alone.
+    // The part of the difference due to light by way of surfaces that are not seen; known for rendered scenes only.
     std::optional<MeanWithError> by_way_of_unseen = {};
 
-    // The difference in its standard errors, the discretisation counted as one of them.
+    // The difference in units of its standard error, which includes the discretisation.
     double deviations() const;
 };
 
-// `forward`: bounces 1, 2, …; as many as both have are compared. Throws InputError if the sizes differ.
+// `forward`: bounces 1, 2, …; the terms that both have are compared. Throws InputError if the sizes differ.
 std::vector<TermAgreement> agreement(const Unbounced& backward, const std::vector<Estimate>& forward,
                                      const std::vector<MeanWithError>& by_way_of_unseen = {});
 

@@ -15,10 +15,10 @@ namespace {
 using Kind = Doubt::Kind;
 constexpr const char* channel_names[] = {"red", "green", "blue"};
 
-// Of a family of comparisons, the chance that any of them fails by chance.
+// The probability that any of a family of comparisons fails by chance.
 constexpr double false_alarms = 0.001;
-// Light below this part of the largest is not spoken of; of links between regions, which large regions make a little negative,
-// below the second.
+// Light below the first part of the largest is not mentioned; for links between regions, which become slightly negative
+// for large regions, the second part counts.
 constexpr double least_light = 0.01, least_link = 0.05;
 constexpr double lost_in_noise = 0.5;
 constexpr double least_direct = 0.02, unlit_pixels = 0.01;
@@ -63,7 +63,8 @@ struct Writer {
         });
     }
 
-    // Of values that cannot be negative, those that are, beyond errors and beyond what is worth a word.
+    // The values among those that cannot be negative that are negative, beyond errors and beyond the least that is
+    // worth mentioning.
     struct Worst {
         double value = 0.0, error = 0.0;
         Eigen::Index row = 0, column = 0;
@@ -124,14 +125,14 @@ struct Writer {
         return static_cast<std::size_t>(channel.lights[static_cast<std::size_t>(i)]);
     }
 
-    // Sums over channels of T, and their variances, which are 0 where they are not known.
+    // Sums over channels of T, and their variances, which are 0 if they are not known.
     struct Grey {
         Eigen::MatrixXd value, variance;
         explicit Grey(const RegionMeans& means)
             : value(Eigen::MatrixXd::Zero(means.mean[0].rows(), means.mean[0].cols())), variance(value) {
             for (int c = 0; c < 3; ++c) {
                 value += means.mean[c];
-                if (means.variance[c].size() > 0) variance += 3.0 * means.variance[c];  // channels may go together
+                if (means.variance[c].size() > 0) variance += 3.0 * means.variance[c];  // channels may be correlated
             }
         }
     };
@@ -144,7 +145,8 @@ struct Writer {
         int foreigners = 0;
         for (Eigen::Index j = 0; j < T.value.cols(); ++j) {
             if (sizes[j] == 0.0 || T.value(j, j) <= 0.0) {
-                if (T.value.col(j).sum() > 0.0) idle.push_back(names[static_cast<std::size_t>(j)]);  // black: it shines on nothing
+                // a black light shines on nothing
+                if (T.value.col(j).sum() > 0.0) idle.push_back(names[static_cast<std::size_t>(j)]);
                 continue;
             }
             Eigen::Index other = 0;
@@ -188,9 +190,9 @@ struct Writer {
                             names[static_cast<std::size_t>(region)]));
     }
 
-    // Pixels whose light is hardly direct: significantly less than 2% of it in bounce 1; or less than half, where that is less than
-    // 2% of what the brightest pixel of the region has, for a pixel that no light meets is given to the one whose region shines on
-    // it most.
+    // Finds pixels whose light is hardly direct: significantly less than 2% of it in bounce 1. Or less than half, if
+    // that is less than 2% of the brightest pixel of the region: a pixel that no light shines on is assigned to the
+    // light whose region illuminates it most.
     void unlit() const {
         const PixelEstimate& first = found.terms.front();
         double seen = 0.0, dark = 0.0;
@@ -208,7 +210,7 @@ struct Writer {
                                          100.0 * dark / seen));
     }
 
-    // The bounce that it changes most, as a part of it.
+    // Names the bounce that changes most relative to its size.
     void unseen(const std::vector<TermAgreement>& forward) const {
         double most = least_light;
         std::optional<std::size_t> worst;

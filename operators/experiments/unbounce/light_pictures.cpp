@@ -28,7 +28,7 @@ Estimate checked(Estimate picture, const std::string& name, int width, int heigh
             if (!is_finite(mean.at(x, y)))
                 throw InputError(
                     fmt::format("{}: pixel ({}, {}) is not finite; expected a picture without such pixels", name, x, y));
-    // Of a single replicate, whose errors are not known.
+    // The errors of a single replicate are not known.
     if (!is_finite(picture.standard_error)) picture.standard_error = Image();
     return picture;
 }

@@ -12,11 +12,11 @@ namespace neumann {
 
 struct RegionParts;
 
-// Pictures are asked for several times, so that only one need be in memory.
+// Functions that return the pictures may be called several times, so that only one picture need be in memory.
 struct LightPictures {
-    std::vector<std::string> names;                    // a light's, for messages; at least two
-    std::function<Estimate(std::size_t)> picture;      // W·m⁻²·sr⁻¹; without standard errors where they are not known
-    std::function<Estimate(std::size_t)> direct = {};  // what has bounced once in it; empty: not known
+    std::vector<std::string> names;                    // names of the lights, for messages; at least two
+    std::function<Estimate(std::size_t)> picture;      // W·m⁻²·sr⁻¹; without standard errors if they are not known
+    std::function<Estimate(std::size_t)> direct = {};  // the part that has bounced once; empty: not known
     const RegionParts* parts = nullptr;                // null: the errors of pictures are independent of each other
 
     std::size_t lights() const { return names.size(); }

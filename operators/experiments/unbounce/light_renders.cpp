@@ -16,7 +16,7 @@ namespace neumann {
 namespace {
 
 constexpr std::uint64_t more_samples_forward = 4;
-// Parts of the samples; fewer where each has a large matrix.
+// The number of parts of the samples; it is smaller for many lights, because each part has a large matrix.
 constexpr std::uint64_t most_parts = 32, fewest_parts = 16;
 constexpr std::size_t many_lights = 256;
 
@@ -51,7 +51,8 @@ public:
         sums_[i] += value;
         squares_[i] += value * value;
     }
-    // Of `count` parts, entries first … of a picture of this size. One part has no error that is a number.
+    // The estimate from `count` parts, of entries first … of a picture of this size. With one part the error is not a
+    // number.
     Estimate estimate(std::size_t first, int width, int height, double count) const {
         Estimate result{Image(width, height), Image(width, height)};
         result.degrees_of_freedom = count - 1.0;

@@ -12,9 +12,9 @@ namespace {
 
 using Eigen::MatrixXd;
 
-// What pixels need of a channel, for all lights.
+// The weights of a channel for the pixels, for all lights.
 struct ChannelWeights {
-    MatrixXd y;           // T⁻¹ Cⁿ⁻¹ L, a column a term
+    MatrixXd y;           // T⁻¹ Cⁿ⁻¹ L, a column for each term
     MatrixXd share;       // (T⁻¹)_jr / (T⁻¹)_rr, lights × regions
     MatrixXd term_error;  // of the regions' terms
 
@@ -33,7 +33,7 @@ struct ChannelWeights {
     }
 };
 
-// Sums over lights, picture by picture.
+// Sums over lights, to which pictures are added one by one.
 class PixelSums {
 public:
     PixelSums(const Unbounced& found, bool with_direct) : found_(found), with_direct_(with_direct) {
@@ -45,7 +45,7 @@ public:
             channels_.emplace_back(channel, static_cast<Eigen::Index>(found.lights()), bounces());
     }
 
-    // Of `estimate`, the picture of a light or, with `is_direct`, the direct light in it.
+    // Adds `estimate`, the picture of a light or, with `is_direct`, the direct light in it.
     void add(std::size_t light, const Estimate& estimate, bool is_direct) {
         const auto j = static_cast<Eigen::Index>(light);
         const bool has_errors = found_.knows_errors && !estimate.standard_error.pixels.empty();
@@ -92,9 +92,9 @@ public:
 private:
     Eigen::Index bounces() const { return static_cast<Eigen::Index>(found_.means.size()); }
 
-    // How T¹ y enters a term: as bounce 1, and less what would be counted twice.
+    // The sign of T¹ y in a term: it is bounce 1, and is subtracted from later ones, where it would count twice.
     static double of_direct(Eigen::Index n) { return n == 0 ? 1.0 : -1.0; }
-    // What a pixel's value T_pj counts in term n.
+    // The weight of a pixel's value T_pj in term n.
     double of_picture(const ChannelWeights& of, Eigen::Index j, Eigen::Index r, Eigen::Index n) const {
         return (n == 0 ? 0.0 : of.y(j, n)) + (with_direct_ ? 0.0 : of_direct(n) * of.share(j, r) * of.y(r, n));
     }

@@ -30,7 +30,7 @@ Scene on_film(const Scene& scene, int width, int columns, int rows) {
     return scene.with(film);
 }
 
-// In the place of the camera.
+// A projector at the place of the camera.
 ProjectorLight projector(const Scene& scene, Slide slide) {
     const SensorOptions& camera = scene.camera.options();
     const double away = std::max(glm::distance(Vec3(camera.to_world[3]), scene.geometry.center()), scene.geometry.radius());

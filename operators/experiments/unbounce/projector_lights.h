@@ -1,5 +1,5 @@
-// A projector in the place of the camera, whose picture is cut into columns and rows: each block by itself is a light. It shines on
-// all that the camera sees and on nothing else, as Seitz, Matsushita and Kutulakos suppose.
+// A projector at the place of the camera, whose picture is cut into columns and rows; each block by itself is a light.
+// It shines on everything that the camera sees and on nothing else, as Seitz, Matsushita and Kutulakos suppose.
 #pragma once
 
 #include "core/emitter/projector_light.h"
@@ -12,13 +12,13 @@
 
 namespace neumann {
 
-// The scene as its camera sees it, in the light of such a projector alone. A white surface that faces it where the scene's middle
-// is has the radiance 1.
+// The scene as its camera sees it, in the light of such a projector alone. A white surface at the scene's middle that
+// faces the projector has the radiance 1.
 class ProjectorLights {
 public:
-    // `width`: of the pictures, in pixels; their height follows from the scene's film. Pixels have the box filter, so that each
-    // lies in the light of one block. Throws InputError unless the camera is a pinhole in the film's middle, with a whole film, and
-    // there are at most as many columns and rows as pixels.
+    // `width`: of the pictures, in pixels; their height follows from the scene's film. Pixels have the box filter, so
+    // that each lies in the light of one block. Throws InputError unless the camera is a pinhole in the film's middle,
+    // with a whole film, and there are at most as many columns and rows as pixels.
     ProjectorLights(const Scene& scene, int width, int columns, int rows);
 
     std::size_t lights() const { return static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_); }
@@ -27,14 +27,14 @@ public:
 
     // Blocks of the pictures: the pixels that each light shines on.
     Regions regions() const { return block_regions(width(), height(), columns_, rows_); }
-    // The light in whose beam a point is that the projector sees.
+    // The light whose beam contains a point that the projector sees.
     std::size_t light_at(const Vec3& point) const;
 
-    // The scene with block `light` switched on, from the upper left corner row by row; and with all of them.
+    // The scene with block `light` switched on, counted from the upper left corner row by row; and with all of them.
     Scene lit_by(std::size_t light) const;
     Scene flooded() const;
 
-    // The goal of a render that has random numbers of its own, of which bounce 1 and the limit are wanted.
+    // The goal of a render with random numbers of its own, of which bounce 1 and the limit are wanted.
     static Goal goal_of(std::size_t number, std::uint64_t samples, std::uint64_t seed);
 
 private:

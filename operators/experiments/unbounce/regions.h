@@ -1,4 +1,4 @@
-// Which pixels belong to which light: the regions of what is seen, as many as there are lights.
+// Assigns pixels to lights: the regions of what is seen, as many as there are lights.
 #pragma once
 
 #include "operators/experiments/unbounce/light_pictures.h"
@@ -14,42 +14,44 @@ struct Regions {
     static constexpr int none = -1;
 
     int width = 0, height = 0;
-    std::vector<int> of_pixel;  // a light, or none
+    std::vector<int> of_pixel;  // number of a light, or none
 
     Eigen::VectorXd sizes(std::size_t lights) const;  // in pixels
 };
 
-// A pixel belongs to the light under which its mean over channels is largest; to none if it is black under all of them. Throws
-// InputError as checked_picture().
+// Each pixel belongs to the light under which its mean over channels is largest; to none if it is black under all of
+// them. Throws InputError as checked_picture() does.
 Regions brightest_regions(const LightPictures& pictures);
 
-// columns × rows blocks of a picture, from the upper left corner row by row, at most a block a pixel: that of a pixel, and all.
+// columns × rows blocks of a picture, from the upper left corner row by row, with at least one pixel each: the block of
+// a pixel, and all blocks as regions.
 inline int block_of_pixel(int x, int y, int width, int height, int columns, int rows) {
     return y * rows / height * columns + x * columns / width;
 }
 Regions block_regions(int width, int height, int columns, int rows);
 
-// For each light of columns × rows, its number among blocks of 2×2 of them; those at the edges may be smaller.
+// For each light of columns × rows, the number of its block of 2×2 lights; blocks at the edges may be smaller.
 std::vector<int> merged_by_four(int columns, int rows);
 
-// The red, green and blue of regions in each of several independent parts of the samples, as large as each other, where the
-// pictures of all lights are made of the same samples: T is the mean of the parts, and errors go together as they do there.
+// The colours of regions in each of several independent parts of the samples, all of the same size, for pictures of all
+// lights that share samples: T is the mean of the parts, whose spread shows the correlation of errors.
 struct RegionParts {
     struct Part {
         std::array<Eigen::MatrixXd, 3> T;       // regions × lights
-        std::array<Eigen::VectorXd, 3> direct;  // of the regions in their own light
+        std::array<Eigen::VectorXd, 3> direct;  // light of each region's own light in it
     };
     Regions regions;
     std::vector<Part> parts;
 };
 
-// Means over regions, a column a light. In the variance, errors of pixels are independent, or go together as the picture says.
+// Means over regions, a column for each light. In the variance, errors of pixels are independent, or correlated if the
+// picture says so.
 struct RegionMeans {
-    Eigen::MatrixXd mean[3], variance[3];  // variance: empty where the errors of any picture are not known
+    Eigen::MatrixXd mean[3], variance[3];  // variance: empty if the errors of any picture are not known
 };
 RegionMeans region_means(const LightPictures& pictures, const Regions& regions);
 RegionMeans direct_means(const LightPictures& pictures, const Regions& regions);
-// Of a single picture: one column.
+// The same for a single picture: one column.
 RegionMeans region_means(const Estimate& picture, const Regions& regions, std::size_t lights);
 
 }  // namespace neumann

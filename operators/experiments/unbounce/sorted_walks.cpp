@@ -19,8 +19,8 @@ struct Find {
     Rgb value;
 };
 
-// Notes what walks find: where the light fell on their path, after how many reflections, and by how many surfaces that are seen,
-// which are those where light was found before.
+// Records the light that walks find: its place on the path, the number of reflections, and the number of these by seen
+// surfaces, which are those at which light was found before.
 class Sorter : public NoObserver {
 public:
     Sorter(const ProjectorLights& projector, std::size_t paths, std::vector<Find>& finds)

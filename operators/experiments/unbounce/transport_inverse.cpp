@@ -46,7 +46,7 @@ MatrixXd TransportInverse::at(double alpha) const {
     return scale_.cwiseInverse().asDiagonal() * inverse;
 }
 
-// The miss Σ (α²/(σ² + α²))² (uᵀ b)² grows with α: it is halved in logarithms.
+// The miss Σ (α²/(σ² + α²))² (uᵀ b)² grows with α, so the interval is bisected in log α.
 double TransportInverse::by_discrepancy(const VectorXd& picture, double noise) const {
     const Eigen::BDCSVD<MatrixXd> svd(scaled_, Eigen::ComputeThinU);
     const Eigen::ArrayXd singular = svd.singularValues(), parts = svd.matrixU().transpose() * picture;

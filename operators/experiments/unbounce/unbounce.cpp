@@ -15,7 +15,7 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// The value of a picture without errors counts as exact.
+// A picture without errors counts as exact.
 ChannelPictures channel_pictures(const RegionMeans& pictures, const RegionMeans* direct, const RegionMeans* picture, int c) {
     ChannelPictures channel{pictures.mean[c], pictures.variance[c], {}, {}, {}, {}};
     if (direct != nullptr) {
@@ -29,7 +29,7 @@ ChannelPictures channel_pictures(const RegionMeans& pictures, const RegionMeans*
     return channel;
 }
 
-// The parts, by regions that may have lost pixels that are black under all lights.
+// The parts, with means over regions that may have lost pixels that are black under all lights.
 std::vector<ChannelPictures::Part> parts_of(const RegionParts& all, const VectorXd& sizes, std::size_t c) {
     const VectorXd scale = all.regions.sizes(static_cast<std::size_t>(sizes.size())).cwiseQuotient(sizes.cwiseMax(1.0));
     std::vector<ChannelPictures::Part> parts;
@@ -38,7 +38,7 @@ std::vector<ChannelPictures::Part> parts_of(const RegionParts& all, const Vector
     return parts;
 }
 
-// The same for merged lights: sums over lights, and means over what their regions cover.
+// Values for merged lights: sums over lights, and means over their regions.
 MatrixXd merged(const MatrixXd& T, const std::vector<int>& groups, const VectorXd& shares, bool sum_lights) {
     const int count = *std::max_element(groups.begin(), groups.end()) + 1;
     MatrixXd result = MatrixXd::Zero(count, sum_lights ? count : T.cols());
@@ -53,7 +53,7 @@ MatrixXd merged(const MatrixXd& T, const std::vector<int>& groups, const VectorX
     return result;
 }
 
-// The terms of merged regions, a row for each of the regions that were merged.
+// The terms of merged regions, with a row for each of the original regions.
 MatrixXd coarse_terms(const ChannelPictures& fine, const std::vector<int>& groups, const VectorXd& shares, int bounces,
                       double alpha) {
     ChannelPictures coarse{merged(fine.T, groups, shares, true), {}, {}, {}, {}, {}};
@@ -69,7 +69,7 @@ MatrixXd coarse_terms(const ChannelPictures& fine, const std::vector<int>& group
     return result(groups, Eigen::all);
 }
 
-// All regions, those that are not in the matrices with 0.
+// Values of all regions; those that are not in the matrices get 0.
 MatrixXd of_all(const MatrixXd& values, const std::vector<int>& lights, Eigen::Index size) {
     MatrixXd result = MatrixXd::Zero(size, values.cols());
     for (std::size_t i = 0; i < lights.size(); ++i) result.row(lights[i]) = values.row(static_cast<Eigen::Index>(i));
@@ -81,7 +81,7 @@ void add_discretisation(Unbounced& result, int c, const ChannelPictures& picture
     const UnbouncedChannel& channel = result.channels[static_cast<std::size_t>(c)];
     const MatrixXd coarse = coarse_terms(pictures, settings.merged, shares, settings.bounces, channel.regularisation);
     const MatrixXd fine = of_all(channel.terms.value, channel.lights, shares.size());
-    // Regions differ within a merged one, too; what counts is the merged one's mean.
+    // Regions within a merged one also differ from each other; only the mean of the merged one is compared.
     const MatrixXd means = merged(fine, settings.merged, shares, false)(settings.merged, Eigen::all);
     differences = (means - coarse).cwiseAbs();
     for (int n = 0; n < settings.bounces; ++n)
@@ -113,7 +113,8 @@ void expect_regions(const Regions& regions, const LightPictures& pictures) {
                                          pictures.lights()));
 }
 
-// Without pixels that are black under all lights, such as those of nothing, which would make the means of regions anything.
+// The regions without pixels that are black under all lights, such as those that show nothing, which would change the
+// means arbitrarily.
 Regions lit_part(Regions regions, const LightPictures& pictures) {
     const Regions lit = brightest_regions(pictures);
     if (lit.width != regions.width || lit.height != regions.height)
@@ -148,7 +149,7 @@ Unbounced unbounce(const LightPictures& pictures, const Regions& given_regions, 
     std::optional<RegionMeans> given;
     if (picture != nullptr) given = region_means(*picture, regions, pictures.lights());
     result.knows_errors = result.pictures.variance[0].size() > 0;
-    // Of other regions nothing is known.
+    // The parts of other regions are of no use.
     const bool has_parts = result.knows_errors && pictures.parts && pictures.parts->regions.of_pixel == given_regions.of_pixel;
     const RegionParts* const parts = has_parts ? pictures.parts : nullptr;
     result.degrees_of_freedom = unbounce_degrees_of_freedom(parts ? parts->parts.size() : 0);

@@ -15,7 +15,7 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// What a region gives back in the light of its own, as part of the most that any gives back in it; below, it is black.
+// A region is black if its light under its own light is below this part of the largest such value.
 constexpr double black = 1e-9;
 
 // Rows and columns of the chosen lights.
@@ -37,15 +37,15 @@ class Deviates {
 public:
     Deviates(std::uint64_t seed, std::uint32_t repeat) : numbers_(seed, repeat) {}
 
-    // `values` with other errors.
+    // Returns `values` with other errors.
     MatrixXd operator()(const MatrixXd& values, const MatrixXd& variance) {
         MatrixXd result = values;
         for (Eigen::Index i = 0; i < variance.size(); ++i) result.data()[i] += std::sqrt(variance.data()[i]) * next();
         return result;
     }
 
-    // T and the direct light with errors that have the covariance of the parts' means: with normal ξ,
-    // T + Σ_p ξ_p (T_p − T) / √(P (P − 1)).
+    // Gives T and the direct light errors with the covariance of the parts' means: with normal ξ, T + Σ_p ξ_p (T_p − T)
+    // / √(P (P − 1)).
     void disturb(ChannelPictures& pictures) {
         const auto P = static_cast<double>(pictures.parts.size());
         const MatrixXd T = pictures.T, direct = pictures.direct;
@@ -57,7 +57,7 @@ public:
     }
 
 private:
-    // G. E. P. Box, M. E. Muller (1958).
+    // The next deviate, by G. E. P. Box and M. E. Muller (1958).
     double next() {
         const auto [a, b, c, d] = numbers_(index_++, 0);
         const auto uniform = [](std::uint32_t high, std::uint32_t low) {
@@ -145,7 +145,7 @@ double chosen_regularisation(const ChannelPictures& pictures, const TransportInv
 
 }  // namespace
 
-// Those of a covariance of P parts, and of 64 repeats with it.
+// Combines the degrees of freedom of a covariance from P parts with those of 64 repeats.
 double unbounce_degrees_of_freedom(std::size_t parts) {
     const double repeats = unbounce_repeats - 1.0;
     return parts == 0 ? repeats : 1.0 / (1.0 / repeats + 1.0 / (static_cast<double>(parts) - 1.0));

@@ -19,13 +19,14 @@ Cases extreme_brightness_cases() {
                                           {.samples = 128, .bounces = 8, .seed = seed});
                          };
                          const Estimates one = found(0);
-                         // 2^-900 = 1e-271; much below, what is added to means is subnormal, and has fewer bits.
+                         // 2^-900 = 1e-271; for much smaller values, the numbers added to means are subnormal and have
+                         // fewer bits.
                          for (const int k : {-900, -100, -20, 10, 60, 100}) {
                              const Estimates other = found(k);
                              int different = 0;
                              for (std::size_t i = 0; i < one.terms.size(); ++i) {
                                  different += std::ldexp(one.terms[i].mean.r, k) != other.terms[i].mean.r;
-                                 // A standard error's square has to be a number.
+                                 // The square of a standard error must not underflow.
                                  if (k > -500)
                                      different += std::ldexp(one.terms[i].standard_error.r, k) != other.terms[i].standard_error.r;
                              }

@@ -78,11 +78,12 @@ Cases extreme_camera_cases() {
                                           static_cast<double>(std::get<PathRecord>(pictures.record).health->non_finite()), 0, 0);
                          }});
     };
-    // It looks along +z, away from the floor that it stands on, and from within a box it sees backs, which are black.
+    // The camera looks along +z, away from the floor on which it stands; from within a box it sees backs, which are
+    // black.
     add_furnace("on-a-surface", {0.1, -0.3, -1.0}, "rho^i: exact", 1.0);
     add_furnace("close-to-a-corner", {-1.0 + 1e-5, -1.0 + 1e-5, -1.0 + 1e-5}, "rho^i: exact", 1.0);
     add_furnace("inside-a-wall", {0.4, 0.4, 0.4}, "backs are black: exactly 0", 0.0);
-    // n² (1 − R) R^(i−1): in the centre all rays meet the surface upright.
+    // n² (1 − R) R^(i−1): all rays from the centre meet the surface at right angles.
     cases.push_back({"extreme/camera/inside-glass", "n^2 (1 - R) R^(i-1): exact", [](Figures& figures, std::uint64_t seed) {
                          const double n = 4.0, R = 0.36;
                          SceneMaker maker;
@@ -94,7 +95,7 @@ Cases extreme_camera_cases() {
                              figures.near(fmt::format("K^{} Le", i), mean.mean,
                                           n * n * (1.0 - R) * std::pow(R, static_cast<double>(i - 1)), 4.5 * mean.standard_error);
                          }
-                         // Methods with patches cannot have the camera within glass, and must say so.
+                         // Methods with patches do not support a camera within glass, and must report it.
                          maker.parts.camera.fov = 1.0;
                          const Scene scene = maker.make();
                          try {

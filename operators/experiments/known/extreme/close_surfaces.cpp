@@ -1,4 +1,4 @@
-// Surfaces that are nearer to each other than floats of the scene's size can tell: creases, thin gaps, boxes that touch.
+// Surfaces that are nearer to each other than floats of the scene's size resolve: creases, thin gaps, boxes that touch.
 #include "core/sampling/sampler.h"
 #include "operators/experiments/known/extreme/extremes.h"
 #include "operators/experiments/known/extreme/rectangle_overhead.h"
@@ -18,7 +18,7 @@ struct Place {
 };
 constexpr Place places[] = {{"here", {0.7, -0.6, 0.4}}, {"1km-away", {700.0, -600.0, 400.0}}};
 
-// Turned, so that no face is along an axis.
+// The rotation ensures that no face is along an axis.
 Mat4 turned_and_moved(const Vec3& to) { return glm::rotate(glm::translate(Mat4(1.0), to), 1.1, glm::normalize(Vec3(1, 2, 3))); }
 Vec3 moved(const Mat4& to_world, const Vec3& p) { return Vec3(to_world * glm::dvec4(p, 1.0)); }
 Vec3 turned(const Mat4& to_world, const Vec3& n) { return glm::dmat3(to_world) * n; }
@@ -39,8 +39,9 @@ StartPicker on_shape(const Scene& scene, std::uint32_t shape, const Vec3& p, con
     return [start = Start{point_on(scene, shape, p), normal}](Random&) { return start; };
 }
 
-// Two walls of unit height that meet at an angle a, under the sky. A point near the crease sees sin²(a/2) of it, and the other wall
-// for the rest: K^i Le = ρ^i s (1 − s)^(i−1). Of what is p away from the crease, p (1 + π/4)/π is missing.
+// Two walls of unit height that meet at an angle a, under the sky. A point near the crease sees a share s = sin²(a/2)
+// of sky, and otherwise the other wall: K^i Le = ρ^i s (1 − s)^(i−1). At the distance p from the crease, a share p (1 +
+// π/4)/π is missing.
 void groove(Figures& figures, std::uint64_t seed, double half_length, double p, const Mat4& to_world) {
     const double rho = 0.8, a = pi / 3.0, s = 0.25;
     SceneMaker maker;
@@ -60,13 +61,14 @@ void groove(Figures& figures, std::uint64_t seed, double half_length, double p, 
 // Form factors of rectangles from a point, for the corner that is nearest to it; Howell, A Catalog of Radiation Heat Transfer
 // Configuration Factors, B-3 and B-4. Parallel, at distance h: the point is below the corner.
 double parallel_corner(double a, double b, double h) { return 0.25 * rectangle_overhead(2.0 * a, 2.0 * b, h); }
-// Perpendicular, at distance d, from the point's plane up to h, b wide.
+// Perpendicular: at distance d, from the point's plane up to h, b wide.
 double perpendicular_corner(double b, double h, double d) {
     const double r = std::hypot(d, h);
     return (std::atan(b / d) - d / r * std::atan(b / r)) / (2.0 * pi);
 }
 
-// A cube of 1 hovers above the ground under the sky: K Le = ρ (1 − F) on the ground, before the middle of one of its sides.
+// A unit cube hovers above the ground under the sky: K Le = ρ (1 − F) on the ground, in front of the middle of one of
+// its sides.
 void hovering_cube(Figures& figures, std::uint64_t seed, double half_width, double gap, const Mat4& to_world) {
     const double rho = 0.5;
     SceneMaker maker;
@@ -91,7 +93,8 @@ void hovering_cube(Figures& figures, std::uint64_t seed, double half_width, doub
 const Surface glow = glowing(0.8, 1.0);
 const double bounce_8 = std::pow(0.8, 8);
 
-// All that shines alike is seen to be ρ^i from everywhere; what is inside of bodies is black. The shapes 0 to 5 are the walls.
+// A furnace: surfaces that emit alike are seen as ρ^i from everywhere, and the insides of bodies are black. The shapes
+// 0 to 5 are the walls.
 Scene furnace_with(const std::vector<Shape>& bodies, const Mat4& to_world) {
     SceneMaker maker;
     for (const TriangleMesh& face : room({-1, -1, 0}, {1, 1, 2})) maker.add(transformed(face, to_world), glow);
@@ -116,7 +119,7 @@ struct Box {
     }
 };
 
-// On the faces of boxes and in none of the others, at distances from an edge that are small more often than not.
+// Picks points on the faces of boxes but inside no other box, more often than not at small distances from an edge.
 StartPicker beside_edges(const Scene& scene, const std::vector<Box>& boxes, const Mat4& to_world) {
     return [&](Random& random) {
         for (;;) {
@@ -192,7 +195,8 @@ Cases extreme_close_cases() {
                              }});
         cases.push_back({fmt::format("extreme/close/boxes-at-random-{}", place.name), "rho^i: exact",
                          [=](Figures& figures, std::uint64_t seed) { boxes_at_random(figures, seed, to_world); }});
-        // A sphere that touches the floor and one that is sunk into a wall, two that overlap, and a closed cylinder that stands.
+        // A sphere that touches the floor, one that is sunk into a wall, two that overlap, and a closed cylinder that
+        // stands on the floor.
         cases.push_back(
             {fmt::format("extreme/close/round-{}", place.name), "rho^i: exact", [=](Figures& figures, std::uint64_t seed) {
                  const double r = 0.25;

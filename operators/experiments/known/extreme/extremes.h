@@ -1,5 +1,5 @@
-// Cases near the limits of the number formats: very large, small, bright or distant scenes, with answers that are known exactly.
-// Each group has a file of its own.
+// Cases near the limits of the number formats: very large, small, bright or distant scenes, with answers that are known
+// exactly. Each group has a file of its own.
 #pragma once
 
 #include "operators/experiments/known/cases.h"

@@ -21,7 +21,7 @@ void lecture_circle(Figures& figures, std::uint64_t seed) {
             maker.add(Sphere{center, 1.0, false}, matte(0.5));
         else
             maker.add(Cylinder{center - Vec3(0, 0, 3), {0, 0, 1}, 6.0, 1.0, false}, matte(0.5));
-        // What makes the scene as large as its coordinates.
+        // This patch makes the scene as large as its coordinates.
         maker.add(patch({-1, -1, 0}, towards, 0.1), black());
         maker.parts.lights.delta = {PointLight({0, 0, 0}, grey(1.0))};
         const Scene scene = maker.make();
@@ -30,7 +30,8 @@ void lecture_circle(Figures& figures, std::uint64_t seed) {
         if (!scene.geometry.first_hit({0, 0, 0}, towards, 1e9, p)) return figures.fail("intersection", "the ray missed");
         figures.near(fmt::format("x of the intersection, {}", name), p.position.x, exact.x, 4 * eps * distance);
         figures.near(fmt::format("y of the intersection, {}", name), p.position.y, exact.y, 4 * eps * distance);
-        // Other rays: how far from the surface they end, and whether the light is seen from there, as it has to be on this side.
+        // For other rays: their distance from the surface at the end, and whether the light is visible from there, as
+        // it must be on this side.
         Sampler random(seed, 0);
         random.start(0);
         double worst = 0.0, worst_light = 0.0;

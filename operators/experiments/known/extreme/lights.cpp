@@ -25,7 +25,7 @@ Cases extreme_light_cases() {
                                  else
                                      maker.add(patch({0, 0, 0}, {0, 0, -1}, 0.5 * s), lamp(1.0 / (s * s)));
                                  const Scene scene = maker.make();
-                                 // A sphere of diameter s looks the same from everywhere: π s²/4 across.
+                                 // A sphere of diameter s has the cross-section π s²/4 from everywhere.
                                  const double exact = rho * cosine * (round ? 0.25 * pi : cosine) / (pi * r2);
                                  for (const Technique technique : {Technique::mis, Technique::light})
                                      figures.sampled(fmt::format("K Le, {}", short_name(technique)),
@@ -46,14 +46,15 @@ Cases extreme_light_cases() {
                  const double exact = 0.7 * 3.0 * rectangle_overhead(1e4, 1e4, 1.0);
                  ProbeSettings settings{.samples = 1024, .bounces = 1, .seed = seed};
                  if (technique == Technique::light) {
-                     // By area the light above, of all of it that is far away, is found once in 1e8 times: by solid angle.
+                     // Chosen by area, the near part of the light would be found once in 1e8 samples, so points are
+                     // chosen by solid angle.
                      settings.direct = DirectLightSettings{.direct = DirectLight::light, .place = LightPlace::solid_angle};
                  }
-                 // One ray in 3e7 passes the light, which few samples do not show.
+                 // One ray in 3e7 misses the light, which few samples do not show.
                  figures.sampled("K Le", sharp_probe(scene, at(scene, {0, 0, 0}, {0, 0, 1}), technique, settings).terms[1], exact,
                                  0.7 * 3.0 - exact);
              }});
-    // Light that grazes: ρ E cosθ/π, and the part of a sphere that is above the horizon (first_bounce.cpp).
+    // Grazing light: ρ E cosθ/π, and the part of a sphere that is above the horizon (first_bounce.cpp).
     cases.push_back(
         {"extreme/grazing/parallel", "rho E cos/pi: exact", [](Figures& figures, std::uint64_t seed) {
              for (const double cosine : {1e-2, 1e-4, 1e-6}) {
@@ -78,7 +79,7 @@ Cases extreme_light_cases() {
                  ProbeSettings settings{.samples = 1024, .bounces = 1, .seed = seed};
                  settings.direct = DirectLightSettings{.direct = DirectLight::light, .place = LightPlace::solid_angle};
                  const double exact = 0.5 * (1.0 - 1.0 / std::sqrt(1.0 + h * h));
-                 // A strip as wide as w on either side lacks O(1/w³) of it.
+                 // A strip of width w on either side lacks O(1/w³) of it.
                  figures.sampled(fmt::format("K Le, height {:g}", h),
                                  sharp_probe(scene, at(scene, {0, 0, 0}, {0, 0, 1}), Technique::light, settings).terms[1], exact,
                                  1e-5 * exact);

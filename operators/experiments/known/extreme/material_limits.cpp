@@ -16,7 +16,7 @@ namespace neumann::known {
 
 Cases extreme_material_cases() {
     Cases cases;
-    // What single scattering loses at normal incidence is 1.1 to 1.4 α² for α from 0.05 to 0.3 (microfacets.cpp).
+    // The loss of single scattering at normal incidence is 1.1 to 1.4 α² for α from 0.05 to 0.3 (microfacets.cpp).
     for (const double alpha : {1e-4, 1e-3, 1e-2, 0.05, 1.0})
         cases.push_back(
             {fmt::format("extreme/roughness-{:g}", alpha), alpha < 0.05 ? "1 - K Le < 2 alpha^2" : "quadrature, 3e-11",
@@ -29,7 +29,7 @@ Cases extreme_material_cases() {
                                                {.samples = 16384, .bounces = 1, .seed = seed});
                  const double known = alpha == 0.05 ? 0.9972958684886749 : alpha == 1.0 ? 0.30685281944005405 : 1.0 - alpha * alpha;
                  figures.sampled("K Le, cosine 1", found.terms[1], known, alpha < 0.05 ? alpha * alpha : 0.0);
-                 // At each sampled direction: weight = fs cosθ/pdf.
+                 // At each sampled direction, weight = fs cosθ/pdf must hold.
                  Sampler random(seed, 0);
                  random.start(0);
                  double worst = 0.0;
@@ -76,7 +76,7 @@ Cases extreme_material_cases() {
                                  const double through = (1.0 - R) * (1.0 - R);
                                  figures.terms(found, std::array{R, through, through * R});
                              } else {
-                                 // A walk in 4e12 is reflected.
+                                 // One walk in 4e12 is reflected.
                                  figures.near("K^2 Le", found.terms[2].mean.r, 1.0, 1e-12);
                                  figures.near("K Le", found.terms[1].mean.r, 0.0, 1e-12);
                              }

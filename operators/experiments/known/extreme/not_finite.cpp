@@ -29,7 +29,7 @@ void numbers_that_are_none(Figures& figures, std::uint64_t seed) {
         walk.direct = {DirectLight::bsdf};
         const BounceSeries series = render(maker.make(), walk, {.bounces = 1, .samples = 32, .seed = seed});
         const Health& health = *std::get<PathRecord>(series.record).health;
-        // All 32 samples of each of 4 pixels.
+        // All 32 samples of each of 4 pixels must be counted.
         for (const std::size_t i : {0, 1})
             figures.near(fmt::format("radiance {}: samples of K^{} Le counted", number, i),
                          static_cast<double>(health.bounces[i].non_finite), 4 * 32, 0);

@@ -13,7 +13,7 @@ Cases extreme_place_cases() {
     struct Place {
         const char* name;
         double size;
-        Vec3 to;  // in sizes
+        Vec3 to;  // in units of size
     };
     for (const Place& place : {Place{"scale-1e-6", 1e-6, Vec3(0.0)},
                                {"scale-1e6", 1e6, Vec3(0.0)},
@@ -26,7 +26,7 @@ Cases extreme_place_cases() {
             {fmt::format("extreme/{}/cube", place.name), "rho^i g_i: 2.4e-8", [=](Figures& figures, std::uint64_t seed) {
                  sample_cube(figures, seed, lit_cube(0.8, 1.0, to_world).make(), to_world);
              }});
-        // Without variance: any ray that slips through a wall or hits the one it leaves is seen.
+        // There is no variance, so any ray that slips through a wall or hits the surface it leaves is noticed.
         cases.push_back({fmt::format("extreme/{}/furnace", place.name), "rho^i: exact", [=](Figures& figures, std::uint64_t seed) {
                              SceneMaker maker;
                              for (const TriangleMesh& face : room({0, 0, 0}, {1, 1, 1}))

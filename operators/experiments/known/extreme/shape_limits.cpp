@@ -12,7 +12,7 @@ namespace neumann::known {
 
 Cases extreme_shape_cases() {
     Cases cases;
-    // 20 × 0.01 cut along, aspect 1 : 128000.
+    // A lamp of 20 × 0.01 cut lengthwise, with an aspect ratio of up to 1 : 128000.
     for (const int pieces : {1, 8, 64})
         cases.push_back({fmt::format("extreme/needles/lamp-of-{}", pieces), "Lambert's formula: exact",
                          [=](Figures& figures, std::uint64_t seed) {
@@ -55,7 +55,7 @@ Cases extreme_shape_cases() {
                              figures.at_most(fmt::format("relative difference of terms, {} floors", copies), largest, 8 * eps);
                          }
                      }});
-    // Which of two coincident surfaces is seen is left to chance. If one of them is a light, a warning is expected.
+    // Chance decides which of two coincident surfaces is seen. If one of them is a light, a warning is expected.
     cases.push_back(
         {"extreme/coincident/unlike", "warned of; nothing is missed", [](Figures& figures, std::uint64_t seed) {
              SceneMaker maker;
