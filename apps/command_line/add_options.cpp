@@ -29,7 +29,7 @@ std::vector<std::string> joined_arguments(int argc, char** argv) {
     std::vector<std::string> joined;
     for (int i = 1; i < argc; ++i) {
         const std::string_view text = argv[i];
-        // What is no port is the scene.
+        // A text that is not a port is the scene.
         if (!joined.empty() && joined.back() == "--live")
             joined.back() += !text.empty() && text.find_first_not_of("0123456789") == text.npos ? "" : "=0";
         const bool petsc = !joined.empty() && joined.back() == "--petsc" && text.size() > 2 && text[0] == '-' && text[1] != '-' &&

@@ -1,4 +1,4 @@
-// A command of the command line from the table of its request's options.
+// Adds an option of a request to a command of the command line.
 #pragma once
 
 #include "apps/requests/option.h"
@@ -14,8 +14,8 @@ namespace neumann {
 
 CLI::Option& add_option(CLI::App& command, const OptionWords& o, Given& given);
 
-// Adds the command; when it is parsed, `given` has what was typed. The texts are checked one by one, which leaves take() what does
-// not go together.
+// Adds the command; when it is parsed, `given` has the options as typed. The texts are checked one by one; take()
+// checks which of them exclude each other.
 template <class Request>
 CLI::App& add_command(CLI::App& app, const Options<Request>& options, Given& given) {
     CLI::App& command = *app.add_subcommand(options.command, options.about);
@@ -34,8 +34,8 @@ CLI::App& add_command(CLI::App& app, const Options<Request>& options, Given& giv
     return command;
 }
 
-// The command line with "--petsc" and a value that looks like an option, "-ksp_type gmres", as one argument, and "--live" as
-// "--live=0" where what follows is no port.
+// The arguments of the command line, with "--petsc" and a value that looks like an option, "-ksp_type gmres", joined to
+// one argument, and "--live" as "--live=0" if no port follows.
 std::vector<std::string> joined_arguments(int argc, char** argv);
 
 }  // namespace neumann

@@ -1,4 +1,4 @@
-// The manual pages of the commands. Name, synopsis and options come from what the program parses; the rest is in
+// The manual pages of the commands. Name, synopsis and options come from the parser's definitions; the rest is in
 // apps/manual/NAME.txt.
 #pragma once
 

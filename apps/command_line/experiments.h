@@ -1,11 +1,12 @@
-// The commands of experiments and of matrices, which a program of its own runs: neumann-experiments, beside neumann where that is
-// built and among its modules where it is installed. Renders need none of it, and wait for none of it to be compiled.
+// The commands of experiments and of matrices are run by a second program, neumann-experiments, which is beside neumann
+// where that is built and among its modules where it is installed. Renders do not need it, nor wait for its
+// compilation.
 #pragma once
 
 namespace neumann {
 
-// In `neumann`: goes on as the other program if the command is one of its own and it is there; then this does not return. In the
-// other program itself: nothing.
+// In `neumann`: executes the other program if the command belongs to it and it exists; then this does not return. In
+// the other program: does nothing.
 void go_on_where_experiments_are(char** argv);
 
 }  // namespace neumann

@@ -28,10 +28,10 @@ namespace {
 
 constexpr int failed_while_running = 1, wrong_input = 2;
 
-// Not fmt::print, which throws where stderr cannot be written.
+// This does not use fmt::print, which throws if stderr cannot be written.
 void complain(const std::string& what) { std::fputs((what + "\n").c_str(), stderr); }
 
-// What was printed must have arrived.
+// Returns `code`; throws RunError if the printed text could not be written.
 int finish(int code) {
     if (std::fflush(stdout) == 0 && !std::ferror(stdout)) return code;
     throw neumann::RunError(std::string("standard output cannot be written: ") + std::strerror(errno));
@@ -43,7 +43,7 @@ std::string join(int argc, char** argv) {
     return line;
 }
 
-// The command of this name; of none, the program itself.
+// The command of this name; the program itself if the name is empty.
 const CLI::App& find(const CLI::App& app, const std::string& name) {
     if (name.empty()) return app;
     std::vector<std::string> names;
@@ -55,8 +55,8 @@ const CLI::App& find(const CLI::App& app, const std::string& name) {
         fmt::format("no command is called '{}'; there are {}{}", name, fmt::join(names, ", "), neumann::did_you_mean(name, names)));
 }
 
-// Memory that was taken is kept for what is next: pictures come and go, and on virtual machines the first touch of a page takes
-// longer than filling it.
+// Keeps freed memory for later allocations: pictures come and go, and on virtual machines the first touch of a page
+// takes longer than filling it.
 void keep_memory() {
     constexpr int largest_threshold = 32 << 20;  // glibc takes no larger one
     mallopt(M_MMAP_THRESHOLD, largest_threshold);
@@ -68,10 +68,10 @@ void keep_memory() {
 int main(int argc, char** argv) try {
     neumann::go_on_where_experiments_are(argv);
     keep_memory();
-    std::signal(SIGXFSZ, SIG_IGN);  // a file too large is an error of write() like a full disk
+    std::signal(SIGXFSZ, SIG_IGN);  // makes a file that is too large an error of write(), like a full disk
     neumann::end_at_interrupts();
     neumann::Launch launch;
-    // In these all processes take part from the beginning.
+    // In these commands all processes take part from the beginning.
     const bool together = argc > 1 && (argv[1] == std::string("solve") || argv[1] == std::string("spectrum"));
     if (launch.is_helper() && !together) return launch.help();
     CLI::App app("makes the bounces of light visible: the terms of L = Le + K Le + K² Le + …, their sums, and their errors");
@@ -90,7 +90,7 @@ int main(int argc, char** argv) try {
     if (argc > 1 && argv[1][0] != '-') find(app, argv[1]);
     try {
         std::vector<std::string> arguments = neumann::joined_arguments(argc, argv);
-        std::ranges::reverse(arguments);  // as CLI11 wants them
+        std::ranges::reverse(arguments);  // CLI11 expects this order
         app.parse(std::move(arguments));
     } catch (const CLI::ParseError& e) {
         if (launch.is_helper()) return launch.help();
@@ -107,7 +107,7 @@ int main(int argc, char** argv) try {
     }
     const auto given = std::ranges::find_if(commands, [](const neumann::Command& command) { return bool(*command.app); });
     if (!launch.is_helper()) return finish(given->run());
-    // What is wrong with what was asked all processes find, and the first one says it.
+    // All processes find the same errors of the input, and the first one reports them.
     try {
         given->run();
     } catch (const neumann::InputError&) {
@@ -125,7 +125,7 @@ int main(int argc, char** argv) try {
     return wrong_input;
 } catch (const std::filesystem::filesystem_error& e) {
     complain(fmt::format("{}: {}", e.path1().string(), e.code().message()));
-    // Names that can be no file's; else something failed.
+    // These errors mean that no file can have this name; otherwise something failed.
     const bool is_name = e.code() == std::errc::too_many_symbolic_link_levels || e.code() == std::errc::filename_too_long ||
                          e.code() == std::errc::permission_denied || e.code() == std::errc::not_a_directory;
     return is_name ? wrong_input : failed_while_running;

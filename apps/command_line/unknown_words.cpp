@@ -12,7 +12,7 @@ namespace neumann {
 
 namespace {
 
-// Options of Mitsuba, pbrt, Blender and the CS184 renderer, which option here they are, and what is said of it.
+// Options of Mitsuba, pbrt, Blender and the CS184 renderer, the option that they correspond to here, and a remark.
 struct Elsewhere {
     std::string_view name, here, about;
 };
@@ -49,7 +49,7 @@ std::string about(const std::string& name, const CLI::App& command) {
         for (const std::string& other : option->get_lnames()) names.push_back("--" + other);
         is_known = is_known || option->check_name(name);
     }
-    // CLI11 gives the command what stands after it.
+    // CLI11 assigns options after the command to the command.
     if (is_known)
         return fmt::format("{0} stands before the command, expected after it: neumann {1} … {0}", name, command.get_name());
     const auto other = std::ranges::find(elsewhere, std::string_view(name), &Elsewhere::name);

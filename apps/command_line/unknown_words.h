@@ -1,4 +1,4 @@
-// What a misspelt option, or one of other programs, may have meant.
+// Suggests an option for a misspelt one, or for one of other programs.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -8,7 +8,7 @@
 
 namespace neumann {
 
-// "--sp: render has no such option; did you mean '--spp'?", for the options among the arguments that were not expected; "" if there
+// "--sp: render has no such option; did you mean '--spp'?", for the options among the unexpected arguments; "" if there
 // are none.
 std::string about_unknown_options(const CLI::App& app, const std::vector<std::string>& unexpected);
 

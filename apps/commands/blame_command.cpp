@@ -43,7 +43,7 @@ int number_in(const std::string& path) {
     return number;
 }
 
-// By number. Of a folder, all OpenEXR files.
+// The files by their numbers. A folder stands for all OpenEXR files in it.
 std::map<int, std::string> files_by_number(const std::vector<std::string>& given) {
     std::vector<std::string> files;
     for (const std::string& path : given) {
@@ -116,7 +116,7 @@ void print(const Blame& found, const Scene& scene, const std::string& output) {
     if (!output.empty()) fmt::print("\nThe pictures are on the page {}\n", (fs::path(output) / "index.html").string());
 }
 
-// With all that is needed to repeat it.
+// The verdict with everything needed to repeat it.
 nlohmann::ordered_json json_of(const Blame& found, const Scene& scene, const BlameRequest& request) {
     nlohmann::ordered_json json = blame_json(found, scene);
     json["scene"] = request.pictures.back();
@@ -160,7 +160,7 @@ int blame_command(const BlameRequest& request) {
     catch_interrupts();
     std::optional<OutputFolder> folder;
     if (!request.output.empty()) {
-        expect_pictures();  // before anything is sampled
+        expect_pictures();  // fails before anything is sampled
         folder.emplace(request.output, "blame");
     }
     Watch watch;

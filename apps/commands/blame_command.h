@@ -1,4 +1,4 @@
-// `neumann blame PICTURES SCENE`: which bounce of another renderer is wrong, and in what way.
+// `neumann blame PICTURES SCENE`: finds the bounce of another renderer that is wrong, and the mistake.
 #pragma once
 
 #include "apps/requests/blame_request.h"
@@ -6,11 +6,11 @@
 
 namespace neumann {
 
-// Throws InputError for a counting that there is not.
+// Throws InputError for an unknown counting.
 BlameSettings blame_settings(const BlameRequest& request);
 
-// Prints the verdict, and writes it with pictures into the output folder, all or nothing. Exit code 0, whatever it is. Throws
-// InputError, and Stopped at Ctrl-C.
+// Prints the verdict, and writes it with pictures into the output folder, all or nothing. The exit code is 0 for any
+// verdict. Throws InputError, and Stopped at Ctrl-C.
 int blame_command(const BlameRequest& request);
 
 }  // namespace neumann

@@ -35,9 +35,10 @@ struct Row {
     Metrics metrics;
     MeanDifferences means;
     double noise = 0.0;
-    std::optional<double> flip = {};  // mean, where it is asked for
+    std::optional<double> flip = {};  // the mean, if it was requested
     bool a_has_error = false, b_has_error = false, degrees_known = true, infinite_variance = false;
-    bool widest = false;  // the interval of the mean: the errors of a picture's pixels may go together
+    // whether the mean has the widest interval, because the errors of a picture's pixels may be correlated
+    bool widest = false;
 
     bool has_error() const { return a_has_error || b_has_error; }
     bool has_interval() const { return has_error() && !infinite_variance; }
@@ -46,7 +47,7 @@ struct Row {
 struct Comparison {
     std::vector<Row> rows;
     std::vector<std::string> only_in_a, only_in_b;
-    std::optional<std::pair<std::string, std::string>> rests;  // where they differ: after which bounces they begin
+    std::optional<std::pair<std::string, std::string>> rests;  // set if they differ: the bounces after which they begin
 };
 
 ComparedPicture compared(const RenderedPicture& p) {
@@ -78,7 +79,7 @@ Row compare_pictures(const std::string& name, const std::string& path_a, const s
     }
 }
 
-// Sorts the pictures of a series: bounces, sums, rest, each by number.
+// The order of the pictures of a series: bounces, sums, rest, each by number.
 struct SeriesOrder {
     bool operator()(const std::string& a, const std::string& b) const { return key(a) < key(b); }
     static std::tuple<int, std::size_t, std::string> key(const std::string& name) {

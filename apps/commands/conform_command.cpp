@@ -37,7 +37,7 @@ struct ConformScene {
 
 struct ConformResult {
     std::string name;
-    std::string why_not;  // why it could not be judged
+    std::string why_not;  // the reason why it was not judged
     std::uint64_t samples = 0;
     double seconds = 0.0;
     Conformity by_reference, by_error;
@@ -74,11 +74,11 @@ Image in_colors(const glm::dmat3& matrix, Image image) {
     return image;
 }
 
-// Renders the sum of all bounces that the file asks for, in XYZ.
+// Renders the sum of all bounces that the file specifies, in XYZ.
 std::optional<Estimate> picture_of(const Scene& scene, std::uint64_t samples, std::uint64_t seed, const glm::dmat3& xyz_from_rgb) {
     method::Walk walk;
     walk.sampler = SamplerKind::independent;
-    // Each sample is a replicate: Student's t needs many.
+    // Each sample is a replicate, because Student's t needs many.
     const Goal goal{.samples = samples,
                     .replicates = static_cast<std::uint32_t>(samples),
                     .seed = seed,

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Files that are written under other names first, and renamed when all are there.
+// Files that are written under other names first, and renamed when all are complete.
 class NewFiles {
 public:
     NewFiles() = default;
@@ -26,7 +26,7 @@ public:
     ~NewFiles() {
         std::error_code ignored;
         for (const fs::path& path : written_) fs::remove(partial(path), ignored);
-        for (const fs::path& folder : created_) fs::remove(folder, ignored);  // those that are empty
+        for (const fs::path& folder : created_) fs::remove(folder, ignored);  // only those that are empty
     }
 
     void write(const fs::path& path, const std::string& bytes) {
@@ -65,7 +65,7 @@ int convert_command(const ConvertRequest& request) {
     const ConvertedScene converted = convert_scene(request.scene.path, request.scene.definitions, request.scene.lenient);
     NewFiles written;
     for (const auto& [name, bytes] : converted.files) written.write(output.parent_path() / name, bytes);
-    written.write(output, converted.xml);  // the last, so that what it names is there
+    written.write(output, converted.xml);  // the last, so that the files that it names exist
     written.commit();
     const std::size_t files = converted.files.size();
     print_warnings(texts(converted.warnings), request.quiet);

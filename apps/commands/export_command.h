@@ -1,4 +1,4 @@
-// `neumann export SCENE`: T, R, Le and the measures as files that SciPy reads.
+// `neumann export SCENE`: writes T, R, Le and the measures as files that SciPy reads.
 #pragma once
 
 #include "apps/commands/patch_scene.h"

@@ -37,7 +37,7 @@ NamedState read(const std::string& folder) {
     return state;
 }
 
-// The samples a pixel that parts leave out, because one of them is not here or was cut short.
+// The samples a pixel that are missing because a part is not here or was cut short.
 std::uint64_t missing_samples(const Goal& goal, const RenderState& merged) {
     if (!goal.part) return 0;
     const std::uint64_t all = goal.samples.value();

@@ -1,4 +1,4 @@
-// `neumann merge A B C -o DIR`: renders of one scene by different seeds, or parts of one, become one.
+// `neumann merge A B C -o DIR`: merges renders of one scene by different seeds, or parts of one, into one.
 #pragma once
 
 #include "apps/requests/render_request.h"
@@ -7,7 +7,7 @@
 
 namespace neumann {
 
-// What would be asked for all samples at once, from what was asked for some of them.
+// The request for all samples at once, from the request for some of them.
 RenderRequest asked_for_all(RenderRequest of_some, const RenderState& merged);
 
 // Returns the exit code, 0. Throws InputError and RunError.

@@ -18,7 +18,7 @@ namespace {
 std::string theme_of(const RenderedFolder& rendered) {
     const auto request = rendered.run().find("request");
     if (request == rendered.run().end()) return "dark";
-    // As version 0.1 wrote it, or as this one does.
+    // The first form is that of version 0.1, the second the present one.
     return request->contains("--theme") ? request->at("--theme").at(0).get<std::string>() : request->value("theme", "dark");
 }
 

@@ -1,4 +1,4 @@
-// `neumann page DIR`: page, slides and strips anew from the files of a render.
+// `neumann page DIR`: makes page, slides and strips again from the files of a render.
 #pragma once
 
 #include "apps/requests/requests_of_renders.h"

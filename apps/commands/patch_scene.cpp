@@ -20,7 +20,7 @@ namespace neumann {
 
 namespace {
 
-constexpr const char* letters[] = {"r", "g", "b"};  // of the channels
+constexpr const char* letters[] = {"r", "g", "b"};  // names of the channels
 
 TracedSettings settings(const PatchOptions& options) {
     return {options.patches, options.rays, options.seed, memory_limit(options.memory)};
@@ -31,7 +31,7 @@ std::shared_ptr<const Scene> read_interruptibly(const SceneFile& file) {
     return std::make_shared<const Scene>(read_scene(file));
 }
 
-// Throws on all processes if one cannot use the folder.
+// Opens the folder of rows; throws on all processes if one cannot use it.
 std::unique_ptr<RowFiles> open_rows(const PatchOptions& options, const Scene& scene, Processes* processes) {
     std::unique_ptr<RowFiles> rows;
     std::exception_ptr wrong;
@@ -69,7 +69,7 @@ PatchScene::PatchScene(const PatchOptions& options, std::shared_ptr<const Scene>
                        const std::function<std::unique_ptr<MatrixSystem>(const TracedSettings&)>& make)
     : options_(options), threads_(options.threads), scene_(std::move(scene)) {
     TracedSettings traced = settings(options);
-    // Others may use the folder again as soon as T is traced.
+    // The folder is released as soon as T is traced, so that others may use it.
     const auto rows = options.keep ? open_rows(options, *scene_, processes) : nullptr;
     traced.store = rows.get();
     try {

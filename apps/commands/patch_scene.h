@@ -1,4 +1,5 @@
-// Shared by the commands that treat a scene as matrices: their options, and the construction of space, table, R and channels.
+// Code shared by the commands that treat a scene as matrices: their options, and the construction of space, table, R
+// and channels.
 #pragma once
 
 #include "apps/requests/patch_request.h"
@@ -22,14 +23,14 @@ class PatchScene {
 public:
     // Throws InputError that names the scene and what is wrong, and Stopped at Ctrl-C.
     explicit PatchScene(const PatchOptions& options);
-    // For processes that share it, all together; `petsc`: SLEPc's options.
+    // For several processes together, which all must call it; `petsc`: SLEPc's options.
     PatchScene(const PatchOptions& options, Processes& processes, const std::string& petsc);
     // Uses a scene that was read before.
     PatchScene(const PatchOptions& options, std::shared_ptr<const Scene> scene);
 
     const Scene& scene() const { return *scene_; }
     const MatrixSystem& system() const { return *system_; }
-    // Of one process alone.
+    // The system; only if it belongs to one process alone.
     const TracedSystem& traced() const { return dynamic_cast<const TracedSystem&>(*system_); }
 
     // "", or "r", "g", "b", as in names of files.
@@ -39,7 +40,7 @@ public:
 
     // One line: "scene.xml: 1994 patches, 2006 unknowns, 64 rays each, seed 0".
     std::string title() const;
-    // Program, command, scene, options and sizes.
+    // The program, command, scene, options and sizes.
     nlohmann::ordered_json json() const;
 
 private:
@@ -52,7 +53,7 @@ private:
     std::unique_ptr<MatrixSystem> system_;
 };
 
-// Of r, g or b; nothing if the name is empty.
+// The number of channel r, g or b; nothing if the name is empty.
 std::optional<int> channel_number(const std::string& name);
 
 }  // namespace neumann

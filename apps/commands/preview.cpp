@@ -14,7 +14,7 @@ void Preview::show(std::size_t bounces, const std::function<Image(std::size_t)>&
 }
 
 void Preview::write(std::size_t bounces, const std::function<Image(std::size_t)>& term) {
-    constexpr std::size_t most_terms = 7;  // of a strip
+    constexpr std::size_t most_terms = 7;  // in a strip
     std::vector<Image> terms, sums;
     for (std::size_t i = 0; i < std::min(bounces + 1, most_terms); ++i) {
         terms.push_back(term(i));

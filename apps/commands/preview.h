@@ -1,4 +1,4 @@
-// preview.png of a render that is on its way: the strip of the terms so far.
+// preview.png of an unfinished render: the strip of the terms so far.
 #pragma once
 
 #include "apps/live/viewer.h"
@@ -17,10 +17,10 @@ public:
     // Keeps a reference to the folder. `kind` is appended to labels, such as ", lenient".
     Preview(OutputFolder& folder, std::string kind) : folder_(folder), kind_(std::move(kind)) {}
 
-    // As Watch::show. Takes at most a small part of the time; what comes too soon is left out, and what cannot be written is not
-    // missed.
+    // A function for Watch::show. It takes at most a small part of the time: calls that come too soon are skipped, and
+    // failures to write are ignored.
     void show(std::size_t bounces, const std::function<Image(std::size_t)>& term);
-    // From any thread.
+    // May be called from any thread.
     bool is_there() const { return is_there_; }
 
 private:

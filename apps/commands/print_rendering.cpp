@@ -19,13 +19,13 @@ std::string interval(const MeanWithError& mean, bool infinite_variance, bool rar
     return fmt::format("± {:.2g}{}", mean.interval(), rare_large_samples ? " at least" : "");
 }
 
-// The mean of all that is known of the light: the bounces, and the rest where it was measured.
+// The mean of all known light: the bounces, and the rest if it was measured.
 double light(const SeriesReport& report) {
     return report.sum.mean + (report.rest_verdict == RestVerdict::measured ? report.rest.mean : 0.0);
 }
 
-// "Bounces 0 to 6 hold 99.3% of the light, the rest 0.7%; the noise of a pixel of the sum is 0.4%." Nothing where that is not
-// known.
+// "Bounces 0 to 6 hold 99.3% of the light, the rest 0.7%; the noise of a pixel of the sum is 0.4%." Empty if this is
+// not known.
 std::string answer(const BounceSeries& series) {
     const SeriesReport& report = series.report;
     const double all = light(report), error = series.convergence.back().sum_error;
@@ -54,7 +54,7 @@ void print_summary(const BounceSeries& series, const std::string& folder) {
     const double all = light(report);
     const auto part = [&](double of) { return all > 0.0 ? fmt::format("{:.3g}%", 100.0 * of / all) : ""; };
     const Checkpoint& now = series.convergence.back();
-    const bool fields = has_fields(series.method);  // whose errors have that of discretisation in them
+    const bool fields = has_fields(series.method);  // their errors include the discretisation
     const auto noise = [](double error) {
         return std::isfinite(error) && error > 0.0 ? fmt::format("{:.2g}%", 100.0 * error) : "";
     };

@@ -1,4 +1,4 @@
-// A finished render on the terminal.
+// Prints a finished render on the terminal.
 #pragma once
 
 #include "apps/output/rendering_files.h"
@@ -7,11 +7,11 @@
 
 namespace neumann {
 
-// The table of bounces, sum and rest, and how the render ended.
+// Prints the table of bounces, sum and rest, and how the render ended.
 void print_summary(const BounceSeries& series, const std::string& folder);
-// Warnings and complaints, on stderr.
+// Prints warnings and complaints on stderr.
 void print_problems(const Rendering& rendering, const Warnings& warnings, const std::string& folder);
-// All of it.
+// Prints all of it.
 void print_rendering(const Rendering& rendering, const Warnings& warnings, const std::string& folder);
 
 }  // namespace neumann

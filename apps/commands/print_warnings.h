@@ -1,4 +1,4 @@
-// Warnings on the terminal.
+// Prints warnings on the terminal.
 #pragma once
 
 #include "core/base/warnings.h"

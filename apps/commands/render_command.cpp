@@ -34,10 +34,10 @@ namespace neumann {
 
 namespace {
 
-constexpr double large_folder = 200e6;  // bytes, that are told of before they are written
-constexpr int rest_of_files = 50;       // a page in the folder, which nobody asked for, takes a fiftieth of the time
+constexpr double large_folder = 200e6;  // bytes; larger folders are announced before they are written
+constexpr int rest_of_files = 50;       // a page in the folder that nobody asked for takes a fiftieth of the time
 
-// index.html so far, once the render has taken long enough for it, and where it takes the place of no finished page.
+// A viewer for index.html, once the render has taken long enough for it, and only if it replaces no finished page.
 Viewers viewers_of_files(const Scene& scene, const OutputFolder& folder, const ChosenFiles& files, std::optional<int> bounces,
                          PageSoFar& page) {
     constexpr int about_so_many = 8;
@@ -65,7 +65,7 @@ void expect_nothing_unfinished(const std::string& folder) {
                         folder, unfinished_render_file));
 }
 
-// What is there already, and can be gone on with to the goal.
+// The state from which the render continues, if any.
 std::optional<RenderState> read_state(const RenderRequest& request, const Scene& scene,
                                       const std::function<void(const std::string&)>& tell) {
     if (request.resume.empty()) return std::nullopt;
@@ -100,7 +100,7 @@ std::optional<RenderState> read_state(const RenderRequest& request, const Scene&
 }  // namespace
 
 Viewers asked_for(std::vector<Viewer*> all) {
-    constexpr int rest = 20;  // a twentieth of the time at most
+    constexpr int rest = 20;  // at most a twentieth of the time
     constexpr double longest_unseen = 2.0;
     return {std::move(all), SmallShare(rest), longest_unseen};
 }
@@ -139,7 +139,8 @@ std::shared_ptr<Rendering> render(const RenderRequest& request, std::shared_ptr<
 
 int render_command(const RenderRequest& given) {
     RenderRequest request = given;
-    const bool fields = has_fields(make_method(request.method));  // refuses what does not go together, before the scene is read
+    // throws for options that exclude each other, before the scene is read
+    const bool fields = has_fields(make_method(request.method));
     if (request.goal.part && (fields || !request.goal.samples))
         throw InputError(fields ? fmt::format("--part: {} has no samples that could be put together", request.method.name)
                                 : std::string("--part needs --spp, the samples of all parts"));
@@ -170,7 +171,7 @@ int render_command(const RenderRequest& given) {
 
     const auto scene = std::make_shared<const Scene>(read_scene(request.scene));
     for (const Vec2& p : paths.pixels) pixel_number(scene->film, static_cast<int>(p.x), static_cast<int>(p.y), "--paths");
-    catch_interrupts();  // nothing was written before
+    catch_interrupts();  // only now, because nothing was written before
     std::optional<OutputFolder> folder(std::in_place, request.output, "render");
     std::optional<RenderState> state = read_state(request, *scene, watch.tell);
     const auto crew = launched_crew(request.scene, *scene, request.threads);
@@ -184,7 +185,7 @@ int render_command(const RenderRequest& given) {
     };
     if (files.sheets || files.strips) watch.show = [&](std::size_t bounces, const auto& term) { preview.show(bounces, term); };
     watch.chosen = [&](int bounces) {
-        expect_pictures();  // before anything is sampled
+        expect_pictures();  // fails before anything is sampled
         const double bytes = estimated_bytes(scene->film, bounces, is_biased(make_method(request.method)), files);
         folder->expect_space(bytes);
         if (bytes > large_folder)

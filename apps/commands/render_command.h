@@ -1,4 +1,4 @@
-// `neumann render`: a scene in, its bounce pictures out.
+// `neumann render`: renders the bounce pictures of a scene.
 #pragma once
 
 #include "apps/live/viewer.h"
@@ -13,17 +13,18 @@ namespace neumann {
 // Returns the exit code, 0 also if Ctrl-C ended it early. Throws InputError and RunError.
 int render_command(const RenderRequest& request);
 
-// Those who see what there is so far, the part of the time that it takes to show it to all of them, and after how many seconds
-// there should be something new.
+// The viewers of a render that is under way, the part of the time that showing it to all of them may take, and the
+// seconds after which there should be something new.
 struct Viewers {
     std::vector<Viewer*> all;
     SmallShare share;
     double longest_unseen = std::numeric_limits<double>::infinity();
 };
-// Viewers that somebody asked for.
+// Viewers that the user asked for.
 Viewers asked_for(std::vector<Viewer*> all);
 
-// The same for a scene in memory, with the pictures kept in memory. `watch` must not have a judge. Throws InputError and RunError.
+// Renders a scene in memory and keeps the pictures in memory. `watch` must not have a judge. Throws InputError and
+// RunError.
 std::shared_ptr<Rendering> render(const RenderRequest& request, std::shared_ptr<const Scene> scene, const Watch& watch,
                                   Saving saving = {}, Viewers* viewers = nullptr);
 

@@ -16,7 +16,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// The sample that is asked for, and why it was named.
+// The requested sample, and why the report named it.
 ReportedSample choose(const ReplayRequest& request, const RecordedRun& run, const Film& film) {
     if (!request.number) return {{pixel_number(film, (*request.pixel)[0], (*request.pixel)[1], "--pixel"), *request.sample}, ""};
     const std::vector<ReportedSample> named = reported_samples(run, film);

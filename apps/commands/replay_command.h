@@ -1,4 +1,4 @@
-// `neumann replay`: one sample of a render traced again, with its path.
+// `neumann replay`: traces one sample of a render again and shows its path.
 #pragma once
 
 #include "apps/requests/requests_of_renders.h"

@@ -8,12 +8,12 @@
 
 namespace neumann {
 
-// A command for which each reads the same command line: process 0 speaks. Calls run(options), on other processes than 0 with their
-// output silenced, and returns the exit code. What is wrong with the input all find, and process 0 says it; another error of one
-// process ends them all.
+// Runs a command for which each process reads the same command line. Calls run(options), with the output of processes
+// other than 0 silenced, and returns the exit code. All processes find the same errors of the input, and process 0
+// reports them; another error of one process ends them all.
 int run_together(Processes& processes, PatchOptions options, const std::function<int(const PatchOptions&)>& run);
 
-// A command by all processes of this launch, run(request, processes), or by this one alone, with null.
+// Runs a command by all processes of this launch, as run(request, processes), or by this one alone, with null.
 template <class Request>
 int run_by_all(const Request& request, int (*run)(const Request&, Processes*)) {
     Processes* const processes = launched();

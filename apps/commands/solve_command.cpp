@@ -167,7 +167,7 @@ SolvedScene solve_scene(const PatchScene& scene, const SolveRequest& request, bo
 namespace {
 
 int solve_and_print(const SolveRequest& request, Processes* processes) {
-    // These throw before anything is read.
+    // This throws before anything is read.
     if (request.petsc) require_petsc();
     catch_interrupts();
     const PatchScene scene = processes ? PatchScene(request.patches, *processes, "") : PatchScene(request.patches);

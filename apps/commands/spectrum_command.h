@@ -1,4 +1,4 @@
-// `neumann spectrum SCENE`: norms and leading eigenvalues of K, whether the series converges, and how fast.
+// `neumann spectrum SCENE`: shows norms and leading eigenvalues of K, whether the series converges, and how fast.
 #pragma once
 
 #include "apps/commands/patch_scene.h"

@@ -66,7 +66,7 @@ void print_norms(const SceneSpectrum& report) {
     }
 }
 
-// The same by SLEPc: the moduli, and how far they are from ours.
+// Prints the results of SLEPc: the moduli, and their distance from ours.
 void print_slepc(const SceneSpectrum& report) {
     const auto by_slepc = [](const ChannelSpectrum& s) { return s.by_slepc ? s.by_slepc->pairs.size() : 0; };
     std::size_t most = 0;

@@ -1,4 +1,4 @@
-// What `neumann spectrum` prints: tables, CSV, JSON.
+// Prints the results of `neumann spectrum` as tables, CSV and JSON.
 #pragma once
 
 #include "apps/commands/spectrum_command.h"

@@ -42,7 +42,7 @@ std::string expected(const Figure& f) {
     constexpr const char* marks[] = {"", "<= ", ">= "};
     return marks[static_cast<std::size_t>(f.relation)] + text(f.expected);
 }
-// Empty for errors without a size, such as of messages.
+// The size of an error; empty for errors without a size, such as those of messages.
 std::string size(double x) { return std::isnan(x) ? "" : fmt::format("{:.2g}", x); }
 
 void print_figure(const Figure& f) {

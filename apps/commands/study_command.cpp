@@ -28,7 +28,7 @@ namespace neumann {
 
 namespace {
 
-// Throws InputError where one is unknown, given twice, or there is none.
+// Reads the methods. Throws InputError if one is unknown, given twice, or there is none.
 std::vector<StudyMethod> study_methods(const StudyRequest& request, const std::map<std::string, OwnEstimator>& own) {
     std::vector<StudyMethod> methods;
     for (const std::string& name : request.methods) {
@@ -47,7 +47,7 @@ std::vector<StudyMethod> study_methods(const StudyRequest& request, const std::m
     return methods;
 }
 
-// Throws InputError unless it is within the picture.
+// Reads a crop. Throws InputError unless it is within the picture.
 Crop read_crop(const std::string& text, const Film& film) {
     std::array<int, 4> values{};
     const char *at = text.data(), *const end = at + text.size();
@@ -123,7 +123,7 @@ StudyPlan study_plan(const Json& json, bool budgets_are_samples) {
     return plan;
 }
 
-// Of those that the page shows where methods differ most.
+// The number of crops that the page shows where methods differ most.
 constexpr std::size_t found_crops = 3;
 
 void expect_sense(const StudyRequest& request) {
@@ -145,7 +145,7 @@ std::string what_it_takes(const StudyData& data, bool makes_reference) {
     return text;
 }
 
-// Shows on a terminal what is being done.
+// Shows the present work on a terminal.
 class Status {
 public:
     explicit Status(bool quiet) : active_(!quiet && isatty(STDERR_FILENO)) {}
@@ -178,7 +178,7 @@ StudyEnd run_study(StudyRequest request, const std::map<std::string, OwnEstimato
         journal.plan.at("repeats").get_to(request.repeats);
         methods = study_methods(request, own);
     } else {
-        folder.forget();  // of another study, whose journal was removed
+        folder.forget();  // removes the state of another study, whose journal was removed
     }
 
     const Stopwatch pilot_watch;
@@ -284,7 +284,7 @@ int study_command(const StudyRequest& given) {
         request.output =
             (std::filesystem::path("out") / (std::filesystem::path(request.scene.path).stem().string() + "-study")).string();
     expect_sense(request);
-    study_methods(request, {});  // before the scene is read
+    study_methods(request, {});  // throws before the scene is read
     const ThreadLimit threads(threads_of_process(request.threads));
 
     const Stopwatch scene_watch;

@@ -1,4 +1,4 @@
-// `neumann study`: methods side by side, error against time, bounce by bounce.
+// `neumann study`: compares methods, error against time, bounce by bounce.
 #pragma once
 
 #include "apps/requests/study_request.h"

@@ -41,14 +41,14 @@ std::optional<Blocks> blocks_of(const std::optional<std::string>& text) {
     throw OptionError("lights", fmt::format("{}: expected COLUMNSxROWS of at least two lights, such as 8x8", *text));
 }
 
-// What is unbounced, and what of it was rendered.
+// The pictures to unbounce, and their renders if they were rendered.
 struct Input {
     LightPictures pictures;
     Regions regions;
     std::vector<Estimate> forward;
     std::optional<Blocks> blocks;
     std::optional<LightRenders> renders;
-    Json json;  // where it comes from
+    Json json;  // where the pictures come from
 
     Input() = default;
     Input(const Input&) = delete;  // pictures may refer to renders
@@ -60,7 +60,7 @@ void read_input(const UnbounceRequest& request, Input& input) {
     input.pictures.picture = [files = folder.lights](std::size_t j) { return read_light(files[j]); };
     if (!folder.direct.empty()) input.pictures.direct = [files = folder.direct](std::size_t j) { return read_light(files[j]); };
     for (const std::string& file : folder.forward) input.forward.push_back(read_light(file));
-    if (!request.picture.empty()) input.forward.clear();  // they are of all lights
+    if (!request.picture.empty()) input.forward.clear();  // the forward series is for all lights
     const auto given = blocks_of(request.lights);
     input.blocks = given ? given : folder.blocks;
     const std::size_t lights = folder.lights.size();
@@ -91,7 +91,7 @@ void render_input(const UnbounceRequest& request, const Scene& scene, const Watc
     print_warnings(scene.replaced, request.quiet);
     const int width = request.width > 0 ? request.width : std::max(std::min(scene.film.width, default_width), blocks.first);
     const ProjectorLights projector(scene, width, blocks.first, blocks.second);
-    expect_pictures();  // before anything is sampled
+    expect_pictures();  // fails before anything is sampled
     input.renders = render_lights(projector, {request.bounces, request.samples, request.seed}, watch, [&](double done) {
         line.show([&] { return fmt::format("{:.0f}% of the samples under {} lights", 100.0 * done, projector.lights()); });
     });

@@ -1,4 +1,4 @@
-// The explorer of a render that is under way, on a server of this process.
+// The explorer of an unfinished render, on a server of this process.
 #pragma once
 
 #include "apps/live/page_server.h"
@@ -14,19 +14,19 @@ namespace neumann {
 
 class LivePage : public Viewer {
 public:
-    // Port 0: any that is free. Throws InputError if it cannot be had.
+    // Port 0: any free port. Throws InputError if the port is not available.
     explicit LivePage(std::uint16_t port) : server_(port) {}
 
     std::string address() const { return server_.address(); }
-    // Opens it in a browser, where there is a display.
+    // Opens the page in a browser, if there is a display.
     void open();
-    // A browser will ask for it.
+    // Call if a browser will request the page.
     void expect() { is_opened_ = true; }
 
-    // From any thread; most calls do nothing.
+    // May be called from any thread; most calls do nothing.
     void tell(const RenderProgress& progress);
     void see(const Rendering& so_far) override;
-    // The last data, and the file that has them, too, if there is one. When this returns, pages that are open have them.
+    // Sends the last data, and writes them into `file` if it is not empty. When this returns, open pages have them.
     void finish(std::string data, const std::string& file);
 
 private:

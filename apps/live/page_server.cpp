@@ -33,14 +33,15 @@ constexpr seconds without_news{1}, patience{30}, open_for{3};
 constexpr std::chrono::milliseconds before_again{200};
 constexpr std::size_t most_pages = 64, longest_header = 16384;
 
-// Other names may have been made to point here by whoever owns them, to have a browser read what is served here.
+// Whether the request names this machine. The owner of another name may have made it point here, so that a browser
+// reads the page for them.
 bool is_this_machine(std::string_view host) {
     if (host.starts_with('[')) return host.starts_with("[::1]");
     host = host.substr(0, host.find(':'));
     return host == "127.0.0.1" || host == "localhost";
 }
 
-// A browser that this process starts must not hold its sockets open when it has ended.
+// A browser that this process starts must not hold the process's sockets open after its end.
 template <typename Socket>
 void stays_here(Socket& socket) {
     ::fcntl(socket.native_handle(), F_SETFD, FD_CLOEXEC);
@@ -59,7 +60,7 @@ std::string_view parameter(std::string_view target, std::string_view name) {
 
 }  // namespace
 
-// All of it in the server's thread, but for what is public.
+// Everything except the public functions runs in the server's thread.
 class PageServer::Answers {
 public:
     explicit Answers(std::uint16_t port) : acceptor_(io_) {
@@ -68,7 +69,8 @@ public:
         acceptor_.open(here.protocol(), error);
         if (!error) {
             stays_here(acceptor_);
-            acceptor_.set_option(asio::socket_base::reuse_address(true));  // for the connections that an earlier server has closed
+            // needed while connections of an earlier server are closing
+            acceptor_.set_option(asio::socket_base::reuse_address(true));
             acceptor_.bind(here, error);
         }
         if (!error) acceptor_.listen(asio::socket_base::max_listen_connections, error);
@@ -109,7 +111,7 @@ public:
     }
 
 private:
-    // A connection. It lives as long as something is asked of it.
+    // A connection. It lives as long as one of its requests is being answered.
     struct Session {
         explicit Session(asio::ip::tcp::socket socket) : stream(std::move(socket)), timer(stream.get_executor()) {}
         beast::tcp_stream stream;
@@ -117,7 +119,7 @@ private:
         beast::flat_buffer buffer;
         std::optional<http::request_parser<http::empty_body>> request;
         http::response<http::string_body> reply;
-        std::string page;  // that asks for news
+        std::string page;  // the page that asks for news
     };
     using Shared = std::shared_ptr<Session>;
 
@@ -126,7 +128,7 @@ private:
         bool has_last = false;
     };
 
-    // What goes wrong with an answer, such as no memory for a page, ends its connection, and not the render.
+    // An error in a response, such as no memory for a page, ends its connection, but not the render.
     void serve() {
         for (;;) try {
                 io_.run();
@@ -136,7 +138,7 @@ private:
     }
     void accept() {
         acceptor_.async_accept([this](boost::system::error_code error, asio::ip::tcp::socket socket) {
-            if (error) {  // such as no descriptor that is free, which lasts
+            if (error) {  // for example no free descriptor, which may last
                 again_.expires_after(before_again);
                 again_.async_wait([this](boost::system::error_code) { accept(); });
                 return;
@@ -146,7 +148,7 @@ private:
             read(std::make_shared<Session>(std::move(socket)));
         });
     }
-    // The body is not read: nothing that is asked here has one.
+    // The body is not read, because no request here has one.
     void read(const Shared& session) {
         session->request.emplace();
         session->request->header_limit(longest_header);
@@ -191,7 +193,7 @@ private:
         news["finished"] = is_finished_;
         if (!is_finished_ || after != version_) session->page.clear();
         send(session, http::status::ok, "application/json",
-             json_text(news));  // a path may be no UTF-8
+             json_text(news));  // a path may not be UTF-8
     }
     std::string whole_page() const {
         if (data_.empty()) return neumann::page("waiting.html", {});

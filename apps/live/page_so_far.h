@@ -1,4 +1,4 @@
-// index.html of a render that is under way, to be looked at and loaded anew.
+// index.html of an unfinished render, to look at and reload.
 #pragma once
 
 #include "apps/live/viewer.h"
@@ -11,10 +11,10 @@ public:
     // Keeps a reference to the folder.
     explicit PageSoFar(OutputFolder& folder) : folder_(folder) {}
 
-    // What cannot be written is not missed.
+    // Failures to write are ignored.
     void see(const Rendering& so_far) override;
 
-    // About what the first one takes, in seconds, for so many pictures of so many pixels.
+    // Approximate seconds for the first page, with this number of pictures of this number of pixels.
     static double expected_seconds(double pixels, double pictures) { return 3e-7 * pixels * pictures; }
 
 private:

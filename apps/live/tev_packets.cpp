@@ -66,7 +66,7 @@ std::string tev_update_image(const std::string& name, const std::string& layer, 
     for (const std::string& channel : tev_channels(layer)) packet.add(channel);
     for (const int corner : {0, 0, picture.width, picture.height}) packet.add(std::int32_t{corner});
     for (std::int64_t offset = 0; offset < rgb; ++offset) packet.add(offset);
-    for (int channel = 0; channel < rgb; ++channel) packet.add(std::int64_t{rgb});  // from a pixel to the next
+    for (int channel = 0; channel < rgb; ++channel) packet.add(std::int64_t{rgb});  // distance of a pixel from the next
     packet.reserve(picture.pixels.size() * rgb * sizeof(float));
     for (const Rgb& pixel : picture.pixels)
         for (int c = 0; c < rgb; ++c) packet.add(static_cast<float>(pixel[c]));

@@ -14,7 +14,7 @@ namespace neumann {
 
 namespace {
 
-constexpr std::chrono::seconds longest_wait{10};  // for tev to take a packet
+constexpr std::chrono::seconds longest_wait{10};  // until tev has taken a packet
 const std::string rest_layer = "rest";
 
 // A name without its ending: "bounce_003".

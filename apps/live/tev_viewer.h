@@ -1,5 +1,5 @@
-// A running tev that shows a render while it is under way: an image with a layer for each bounce and each sum, and the sum of all
-// bounces without a layer's name.
+// A running tev that shows a render while it is under way: an image with a layer for each bounce and each sum, and the
+// sum of all bounces without a layer name.
 #pragma once
 
 #include "apps/live/viewer.h"
@@ -12,8 +12,8 @@ namespace neumann {
 
 class TevViewer : public Viewer {
 public:
-    // `place`: "HOST:PORT", also "[::1]:14158"; `name`: of the image; `tell`: called once, in words, where the connection is lost.
-    // Throws InputError if nobody listens there.
+    // `place`: "HOST:PORT", also "[::1]:14158"; `name`: of the image; `tell`: called once, with a message, if the
+    // connection is lost. Throws InputError if nobody listens there.
     TevViewer(const std::string& place, std::string name, std::function<void(const std::string&)> tell);
     ~TevViewer() override;
 
@@ -26,7 +26,7 @@ private:
     std::unique_ptr<Connection> connection_;
     std::string place_, name_;
     std::function<void(const std::string&)> tell_;
-    std::size_t layers_ = 0;  // of the image that was created
+    std::size_t layers_ = 0;  // number of layers of the created image
 };
 
 }  // namespace neumann

@@ -1,4 +1,4 @@
-// Who looks at a render while it is under way, and how often that may be.
+// A viewer of unfinished renders, and a limit on the time that viewing takes.
 #pragma once
 
 #include "apps/output/rendering_files.h"
@@ -11,11 +11,12 @@ namespace neumann {
 class Viewer {
 public:
     virtual ~Viewer() = default;
-    // From the thread that renders, which waits.
+    // Called from the thread that renders, which waits.
     virtual void see(const Rendering& so_far) = 0;
 };
 
-// Keeps work beside a render to a small part of its time: after each piece nothing is due for `rest` times as long as that took.
+// Limits work beside a render to a small part of its time: after each piece nothing is due for `rest` times as long as
+// the piece took.
 class SmallShare {
 public:
     using Clock = std::chrono::steady_clock;

@@ -1,5 +1,5 @@
-// Manual pages: headings in capitals, paragraphs, and items, whose text is indented under them. Own code reads them, so that one
-// text makes both the man page and --help, for which no converter of documents has a format.
+// Manual pages: headings in capitals, paragraphs, and items, whose text is indented under them. They are read by own
+// code, so that one text makes both the man page and --help, for which no converter of documents has a format.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@ struct ManualBlock {
     enum class Kind { heading, paragraph, item };
     Kind kind;
     std::string text;
-    std::string term = {};  // of an item: an option, a file, an example
+    std::string term = {};  // for an item: an option, a file, an example
 };
 
 struct ManualPage {
@@ -20,12 +20,12 @@ struct ManualPage {
     std::vector<ManualBlock> blocks;
 };
 
-// Of a text of apps/manual.
+// The blocks of a text of apps/manual.
 std::vector<ManualBlock> blocks_of(std::string_view text);
 
-// For a terminal, 88 columns wide.
+// The page for a terminal, 88 columns wide.
 std::string as_text(const ManualPage& page);
-// For man(1); see man(7).
+// The page for man(1); see man(7).
 std::string as_roff(const ManualPage& page);
 
 }  // namespace neumann

@@ -1,4 +1,4 @@
-// Own code: the texts need four requests of roff, for which a build should not depend on pandoc.
+// This is own code because the texts need only four requests of roff, for which a build should not depend on pandoc.
 #include "apps/manual/manual_page.h"
 
 #include <fmt/format.h>
@@ -9,7 +9,7 @@ namespace neumann {
 
 namespace {
 
-// Hyphens stay as they are typed; a line does not begin with what would be a request.
+// The text with hyphens as they are typed, and no line that begins like a request.
 std::string escaped(const std::string& text) {
     std::string out = !text.empty() && (text.front() == '.' || text.front() == '\'') ? "\\&" : "";
     for (const char c : text) {

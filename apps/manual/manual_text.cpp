@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t width = 88;
 
-// In characters, of which UTF-8 has some in several bytes.
+// The length in characters; some take several bytes in UTF-8.
 std::size_t length(const std::string& text) {
     return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
 }

@@ -65,7 +65,7 @@ WrittenRendering write_rendering(const Rendering& rendering, OutputFolder& folde
         if (!rendering.paths.empty()) try {
                 const RecordedRun run = recorded_run(series, rendering.request.scene, *rendering.scene, folder.path().string());
                 explored.paths = paths_json(run, *rendering.scene, rendering.paths);
-            } catch (const InputError& error) {  // the render is not lost for it
+            } catch (const InputError& error) {  // the render must not be lost for this
                 why_no_paths = error.what();
             }
         data = explorer_data({&explored});

@@ -22,12 +22,12 @@ struct Rendering {
     BounceSeries series;
     double seconds = 0.0;  // total time before writing
     ChosenFiles files = {};
-    ChosenPixels paths = {};  // which the page shows
-    // Of the processes that rendered it together: how many, and what the first one sent and received.
+    ChosenPixels paths = {};  // the paths that the page shows
+    // The number of processes that rendered it together, and the traffic of the first one.
     int processes = 1;
     Processes::Traffic traffic = {};
 
-    // Of the scene and of the render.
+    // The warnings of the scene and of the render.
     Warnings warnings() const;
     // Messages about problems, one line each; `folder`: named in the command that replays them.
     std::vector<std::string> complaints(const std::string& folder) const;
@@ -36,19 +36,19 @@ struct Rendering {
 struct WrittenRendering {
     Warnings warnings;  // including those about the files
     nlohmann::ordered_json run;
-    std::string page_data;     // what index.html shows; empty if it was not chosen
-    std::string why_no_paths;  // on a page that should have some; empty otherwise
+    std::string page_data;     // the data that index.html shows; empty if it was not chosen
+    std::string why_no_paths;  // the reason why a page that should have paths has none; empty otherwise
 };
 
 // Writes the chosen files and commits them. Throws RunError if not everything can be written.
 WrittenRendering write_rendering(const Rendering& rendering, OutputFolder& folder);
 
-// What a page shows of a render whose files are not written.
+// The data that a page shows of a render whose files are not written.
 std::string page_data(const Rendering& rendering, bool is_under_way);
 
-// For use after such an error, so that the samples are not lost: writes everything into a new temporary folder if there is room,
-// and otherwise as many pictures of bounces as fit into a new folder beside `output`. Returns a line for the user that says what
-// was done.
+// For use after such an error, so that the samples are not lost: writes everything into a new temporary folder if there
+// is room, and otherwise as many pictures of bounces as fit into a new folder beside `output`. Returns a line that
+// reports the result to the user.
 std::string keep_elsewhere(const Rendering& rendering, const std::string& output);
 
 }  // namespace neumann

@@ -110,7 +110,8 @@ void add_discretisation(Json& json, const std::optional<DiscretisationReport>& r
                               {"relative", report->relative}};
 }
 
-// The photon maps of the first and the last replicate, and where the power of the lights goes, by the photons of the pilot.
+// The photon maps of the first and the last replicate, and the destinations of the lights' power, estimated by the
+// photons of the pilot.
 Json photons_json(const PhotonPilot& photons, const PathRecord& record, std::size_t bounces) {
     const PhotonSettings& settings = photons.settings;
     const std::uint64_t last = record.first_replicate + std::max<std::size_t>(record.replicates, 1) - 1;
@@ -131,7 +132,7 @@ Json photons_json(const PhotonPilot& photons, const PathRecord& record, std::siz
     return json;
 }
 
-// Where the records of the cache stand.
+// The places of the cache's records.
 Json records_json(const RecordPlaces& places) {
     std::vector<double> radii;
     for (const Record& record : places.records()) radii.push_back(record.radius);
@@ -143,7 +144,7 @@ Json records_json(const RecordPlaces& places) {
     return json;
 }
 
-// How the chains of each bounce have mixed.
+// The mixing of the chains of each bounce.
 Json chains_json(const std::vector<ChainStatistics>& all) {
     Json json = Json::array();
     for (std::size_t bounce = 1; bounce < all.size(); ++bounce) {
@@ -160,8 +161,8 @@ Json chains_json(const std::vector<ChainStatistics>& all) {
     return json;
 }
 
-// What each method of a mixture does: its part of the work, and for each bounce its mean weight and a digit for each block of the
-// picture, row by row: its weight from 0 to 1 in ninths.
+// For each method of a mixture its part of the work, and for each bounce its mean weight and a digit for each block of
+// the picture, row by row: its weight from 0 to 1 in ninths.
 Json mixture_json(const Mixture& mixture) {
     Json json = {{"blocks", {mixture.blocks.across, mixture.blocks.down}}, {"methods", Json::array()}};
     const std::size_t blocks = mixture.blocks.count();

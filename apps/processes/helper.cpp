@@ -27,7 +27,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// How often messages are looked for. It takes time from the thread that samples, which has the next share by then.
+// The interval at which messages are looked for. It takes time from the thread that samples, which has the next share
+// by then.
 constexpr std::chrono::milliseconds moment(2);
 
 class Helper {
@@ -66,7 +67,7 @@ private:
             number_ = message.at("number");
             shares_->add(share_from(message.at("share")), outdo);
         } else if (what == "fields") {
-            // The first process does not wait for an answer.
+            // The first process does not wait for a reply.
             try {
                 begin_fields(render_message_from(message));
             } catch (const std::exception& e) {
@@ -113,11 +114,11 @@ private:
                 return render_fields(without_unlit_ ? *without_unlit_ : *scene_, field_settings_from(settings), {}, &processes_);
             });
         } catch (const InputError&) {
-            // The first process finds it, too.
+            // The first process finds this error, too.
         }
     }
 
-    // Sends what is sampled; whether there was something.
+    // Sends the sampled shares; returns whether there were any.
     bool answer() {
         bool did = false;
         try {
@@ -139,17 +140,18 @@ private:
     std::optional<ThreadLimit> threads_;
     SceneOnDisk on_disk_;
     std::optional<Scene> scene_;
-    std::optional<Scene> without_unlit_;  // for fields, if it is another one
+    std::optional<Scene> without_unlit_;  // the scene for fields, if it is a different one
     std::optional<RecordedSamples> samples_;
     std::optional<ShareQueue> shares_;
-    std::uint64_t number_ = 0;  // of the work to which the shares belong
+    std::uint64_t number_ = 0;  // number of the work to which the shares belong
     bool is_over_ = false;
 };
 
 }  // namespace
 
 int help(Processes& processes) {
-    // Batch systems and terminals send these to all processes; the first one then ends the render, and this one.
+    // Batch systems and terminals send interrupts to all processes; the first one then ends the render, and this
+    // process.
     ignore_interrupts();
     Helper(processes).run();
     return 0;

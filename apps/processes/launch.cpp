@@ -25,7 +25,7 @@ Launch::~Launch() {
     of_this_launch = nullptr;
     if (!processes_ || is_helper()) return;
     for (int other = 1; other < processes_->size(); ++other) processes_->send(other, R"({"do": "end"})");
-    // What they were sending has to be received before.
+    // The messages that they are sending must be received first.
     for (int left = processes_->size() - 1; left > 0;) {
         const auto message = processes_->receive();
         if (!message)
@@ -41,7 +41,7 @@ Processes* launched() { return of_this_launch; }
 
 int threads_of_process(int threads) {
     if (threads > 0 || !launched()) return threads;
-    // By the launcher a process may be bound to fewer.
+    // The launcher may have bound a process to fewer.
     return std::min(oneapi::tbb::info::default_concurrency(),
                     std::max(static_cast<int>(sysconf(_SC_NPROCESSORS_ONLN)) / launched()->on_this_machine(), 1));
 }

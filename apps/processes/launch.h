@@ -1,4 +1,5 @@
-// The processes of this program that were started together: the first one does what the command line says, and the others help it.
+// The processes of this program that were started together: the first one executes the command line, and the others
+// help it.
 #pragma once
 
 #include "apps/processes/scene_on_disk.h"
@@ -9,15 +10,15 @@
 
 namespace neumann {
 
-// One for the whole program, in main().
+// There is one object for the whole program, in main().
 class Launch {
 public:
-    // Throws RunError if several were started and this program cannot talk to them.
+    // Throws RunError if several processes were started and this program cannot communicate with them.
     Launch();
-    // Of the first process: ends the others.
+    // In the first process: ends the others.
     ~Launch();
 
-    // Whether this is one of the others, for which help() is all that there is to do. It returns the exit code.
+    // Whether this is one of the other processes, which must only call help(). It returns the exit code.
     bool is_helper() const { return processes_ && processes_->rank() > 0; }
     int help();
 
@@ -28,11 +29,12 @@ private:
 // The processes of this launch; null if this one was started alone.
 Processes* launched();
 
-// The threads that this process is to use if the user asks for `threads` of them (0: all): those of the machine are shared with the
-// other processes on it.
+// The number of threads of this process if the user asks for `threads` (0: all): those of the machine are shared with
+// the other processes on it.
 int threads_of_process(int threads);
 
-// Those that render a scene together with this process, each with so many threads; null if it was started alone.
+// The processes that render a scene together with this one, each with this number of threads; null if this one was
+// started alone.
 std::unique_ptr<Crew> launched_crew(const SceneFile& file, const Scene& scene, int threads);
 
 }  // namespace neumann

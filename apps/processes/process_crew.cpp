@@ -18,7 +18,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// So many shares has a process at once: one that it samples, and one for when it has done that.
+// The number of shares that a process has at once: the one being sampled and the next.
 constexpr int shares_each = 2;
 
 class ProcessHelpers : public Helpers {

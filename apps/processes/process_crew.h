@@ -1,4 +1,4 @@
-// Other processes as the crew of a render, told by messages what to do.
+// Other processes as the crew of a render, directed by messages.
 #pragma once
 
 #include "apps/processes/scene_on_disk.h"
@@ -14,7 +14,7 @@ namespace neumann {
 
 class ProcessCrew : public Crew {
 public:
-    // `threads`: of each; 0 for all that are its own.
+    // `threads`: of each process; 0 for all that it may use.
     ProcessCrew(Processes& processes, SceneOnDisk scene, int threads)
         : processes_(processes), scene_(std::move(scene)), threads_(threads) {}
 
@@ -25,7 +25,7 @@ private:
     Processes& processes_;
     SceneOnDisk scene_;
     int threads_;
-    std::uint64_t number_ = 0;  // of the present work, so that late answers to earlier work are known as such
+    std::uint64_t number_ = 0;  // number of the present work, by which late replies to earlier work are recognised
 };
 
 }  // namespace neumann

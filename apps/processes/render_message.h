@@ -1,4 +1,4 @@
-// What a process has to know to sample shares of a render, as JSON.
+// The data that a process needs to sample shares of a render, as JSON.
 #pragma once
 
 #include "apps/processes/scene_on_disk.h"
@@ -24,7 +24,7 @@ struct RenderMessage {
 nlohmann::ordered_json as_json(const RenderMessage& message);
 RenderMessage render_message_from(const nlohmann::ordered_json& json);
 
-// As they are in the memory of the same program.
+// The settings as bytes in memory, for a process of the same program.
 std::span<const std::byte> as_bytes(const FieldSettings& settings);
 FieldSettings field_settings_from(std::span<const std::byte> bytes);
 

@@ -1,4 +1,4 @@
-// A scene as every process finds it on its disk.
+// A scene that every process finds on its disk.
 #pragma once
 
 #include "apps/requests/scene_file.h"
@@ -19,7 +19,7 @@ struct SceneOnDisk {
 nlohmann::ordered_json as_json(const SceneOnDisk& scene);
 SceneOnDisk scene_from(const nlohmann::ordered_json& json);
 
-// Throws InputError if it cannot be read, and RunError if it is another one than that with the hash.
+// Reads it. Throws InputError if it cannot be read, and RunError if its hash differs.
 Scene read(const SceneOnDisk& scene);
 
 }  // namespace neumann

@@ -8,11 +8,11 @@
 
 namespace neumann {
 
-// Says what is wrong with this process, and ends it; the launcher ends the others.
+// Reports an error of this process and ends it; the launcher ends the others.
 [[noreturn]] void end_all(const Processes& processes, const std::exception& error);
 
-// What work() returns, which all processes do together. What is wrong with the input all find; another error of one of them ends
-// them all, for others may be waiting for it.
+// Returns the result of work(), which all processes do together. All of them find the same errors of the input; another
+// error of one ends them all, because others may be waiting for it.
 template <class Work>
 auto together(Processes& processes, const Work& work) -> decltype(work()) {
     try {

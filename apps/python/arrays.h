@@ -1,4 +1,4 @@
-// Members of many things as NumPy's arrays.
+// Members of many objects as NumPy arrays.
 #pragma once
 
 #include "core/base/vec.h"
@@ -13,7 +13,7 @@ namespace neumann {
 
 namespace py = pybind11;
 
-// (n,): get(thing) of each.
+// An array (n,) of get(thing) for each.
 template <class T, class Things, class Get>
 py::array_t<T> column(const Things& things, const Get& get) {
     py::array_t<T> array(static_cast<py::ssize_t>(things.size()));
@@ -21,7 +21,7 @@ py::array_t<T> column(const Things& things, const Get& get) {
     return array;
 }
 
-// (n, width): the numbers of get(thing), which is anything with []. Its result may be a reference.
+// An array (n, width) of the numbers of get(thing), which is anything with []. Its result may be a reference.
 template <class T = double, class Things, class Get>
 py::array_t<T> rows(const Things& things, py::ssize_t width, const Get& get) {
     py::array_t<T> array({static_cast<py::ssize_t>(things.size()), width});
@@ -33,7 +33,7 @@ py::array_t<T> rows(const Things& things, py::ssize_t width, const Get& get) {
     return array;
 }
 
-// Where the camera sees a point; NaN where it does not.
+// The pixel where the camera sees a point; NaN if it does not.
 inline Vec2 on_film(const std::optional<Vec2>& pixel) { return pixel.value_or(Vec2(std::numeric_limits<double>::quiet_NaN())); }
 
 }  // namespace neumann

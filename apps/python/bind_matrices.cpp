@@ -1,4 +1,4 @@
-// What `spectrum` and `solve` find of a scene on patches.
+// The results of `spectrum` and `solve` for a scene on patches.
 #include "apps/commands/solve_command.h"
 #include "apps/commands/spectrum_command.h"
 #include "apps/commands/spectrum_print.h"

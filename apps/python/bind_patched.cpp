@@ -63,7 +63,7 @@ py::dict matrices(const Patched& patched) {
     return d;
 }
 
-// An operator that keeps what it refers to.
+// An operator that keeps the objects alive to which it refers.
 std::shared_ptr<ChannelOperator> kept(const Shared& patched, std::unique_ptr<ChannelOperator> K) {
     const auto both = std::make_shared<std::pair<Shared, std::unique_ptr<ChannelOperator>>>(patched, std::move(K));
     return {both, both->second.get()};

@@ -1,4 +1,4 @@
-// Rays, visibility and samples of light for arrays of points: what an estimator written in Python asks of a scene.
+// Rays, visibility and light samples for arrays of points, for estimators written in Python.
 #include "apps/python/arrays.h"
 #include "apps/python/module.h"
 #include "core/base/error.h"
@@ -40,7 +40,7 @@ void expect_rows(std::size_t given, std::size_t expected, const char* name, cons
     if (given != expected) throw InputError(fmt::format("{}: {} rows, expected {}, as of {}", name, given, expected, of));
 }
 
-// Of unit length, whatever length they have.
+// The directions, normalised.
 std::vector<Vec3> directions_of(const py::object& given, std::size_t expected) {
     std::vector<Vec3> directions = rows_of<Vec3>(given, "direction");
     expect_rows(directions.size(), expected, "direction", "origin");
@@ -64,7 +64,7 @@ struct LightPoints {
 const SurfacePoint& on_surface(const SeenPoint& seen) { return seen.y; }
 const SurfacePoint& on_surface(const LightPoint& light) { return light.point; }
 
-// Where rays start or end: points of this scene. Throws InputError, with the name of the argument.
+// Start or end points of rays, which must belong to this scene. Throws InputError, with the name of the argument.
 template <class Points>
 std::vector<SurfacePoint> surface_points(const LoadedScene& scene, const Points& points, const char* name) {
     if (points.scene.get() != &scene) throw InputError(fmt::format("{}: points of another scene", name));
@@ -88,7 +88,7 @@ std::vector<SurfacePoint> points_of(const LoadedScene& scene, const py::object& 
     return found;
 }
 
-// From points in space. Throws InputError.
+// Rays from points in space. Throws InputError.
 std::vector<Ray> rays_of(const py::object& origin, const py::object& direction, const py::object& length) {
     const std::vector<Vec3> origins = rows_of<Vec3>(origin, "origin"), directions = directions_of(direction, origins.size());
     std::vector<Ray> rays(origins.size());
@@ -166,7 +166,7 @@ py::dict rays_of_camera(const LoadedScene& scene, std::int64_t samples, std::int
     return d;
 }
 
-// A member of each point as an array that looks into them and keeps them: (n, 3) of vectors, (n,) of numbers.
+// A member of each point as an array view that keeps the points alive: (n, 3) for vectors, (n,) for numbers.
 template <class Points, class Get>
 py::array view(const py::object& owner, const Get& get) {
     const Points& points = owner.cast<const Points&>();

@@ -25,11 +25,11 @@ namespace {
 
 // A render whose samples can be merged with those of others.
 struct Mergeable : Rendering {
-    std::optional<RenderState> state = {};  // none of a method with fields
+    std::optional<RenderState> state = {};  // none for a method with fields
 };
 using Kept = std::shared_ptr<Mergeable>;
 
-// Keeps what is known of the samples when the last one is done.
+// Keeps the state of the samples when the last one is done.
 Saving keeping(std::optional<RenderState>& state) {
     Saving saving;
     saving.keep = [&state](const RecordedRender& render, const std::optional<MethodChoice>& choice, const RenderedSeries& series,
@@ -39,7 +39,7 @@ Saving keeping(std::optional<RenderState>& state) {
     return saving;
 }
 
-// `live`: a page that fills meanwhile, or null.
+// `live`: a page that shows the render meanwhile, or null.
 std::unique_ptr<Job> start(const std::shared_ptr<LoadedScene>& loaded, const Keywords& keywords,
                            const std::shared_ptr<LivePage>& live) {
     RenderRequest request = request_of(render_options(), *loaded, keywords);

@@ -29,7 +29,7 @@ Loaded load(LoadedScene scene) {
     return loaded;
 }
 
-// (tag, [(attribute, value)], [children], its place in the dictionary, RFC 6901).
+// `given`: (tag, [(attribute, value)], [children], its place in the dictionary, RFC 6901).
 reader::Element element_of(const py::tuple& given, const std::string& name) {
     const Location place{name, 0, 0, given[3].cast<std::string>()};
     reader::Element e{given[0].cast<std::string>(), {}, {}, place};
@@ -55,7 +55,8 @@ std::shared_ptr<const MeshFile> mesh_of(const Rows& vertices, const py::array_t<
     return file;
 }
 
-// `text`: what the scene's hash is of. `meshes`: by the filename of a shape 'ply', the arguments of mesh_of().
+// `text`: the text of which the scene's hash is made. `meshes`: the arguments of mesh_of() by the filename of a shape
+// 'ply'.
 Loaded load_elements(const std::string& name, const py::tuple& root, const std::map<std::string, py::tuple>& meshes,
                      const std::string& text, bool lenient) {
     auto raw = std::make_shared<reader::RawScene>();
@@ -86,7 +87,8 @@ void bind_scene(py::module_& m) {
     m.def("trees_built", &trees_built, "The number of acceleration structures that were built so far.");
     py::class_<LoadedScene, std::shared_ptr<LoadedScene>>(m, "Scene", "A scene as its files were when it was read.")
         .def_property_readonly("path",
-                               [](const LoadedScene& s) {  // bytes that are no UTF-8 as Python has them in names of files
+                               // bytes that are not UTF-8 are as Python has them in names of files
+                               [](const LoadedScene& s) {
                                    return py::reinterpret_steal<py::str>(PyUnicode_DecodeFSDefaultAndSize(
                                        s.file.path.data(), static_cast<py::ssize_t>(s.file.path.size())));
                                })

@@ -26,7 +26,7 @@ using Sparse = SparseChannel::Matrix;
 Operator dense(const Eigen::Ref<const Dense>& K, const Vector& measure) { return std::make_shared<DenseChannel>(K, measure); }
 Operator sparse(const Sparse& K, const Vector& measure) { return std::make_shared<SparseChannel>(K, measure); }
 
-// Ctrl-C ends whatever uses it.
+// A channel whose applications Ctrl-C stops.
 StoppableChannel stoppable(const Operator& K) { return {K, {.stop = interrupted}}; }
 
 Vector applied(const ChannelOperator& K, void (ChannelOperator::*product)(const Vector&, Vector&) const, const Vector& x) {

@@ -11,7 +11,7 @@ namespace neumann {
 
 namespace {
 
-// function(rays as of as_dict(), bounces, seed) as an estimator. The study calls it in the job's thread.
+// Makes an estimator of function(rays as from as_dict(), bounces, seed). The study calls it in the job's thread.
 OwnEstimator estimator_of(const py::object& function) {
     const std::shared_ptr<py::object> kept(new py::object(function), [](py::object* f) {
         const py::gil_scoped_acquire lock;
@@ -36,7 +36,7 @@ OwnEstimator estimator_of(const py::object& function) {
     };
 }
 
-// `own`: the functions of estimator_of() by names that are among the methods.
+// `own`: functions for estimator_of(), by names that are among the methods.
 std::unique_ptr<Job> start(const std::shared_ptr<LoadedScene>& loaded, const Keywords& keywords,
                            const std::map<std::string, py::object>& own) {
     StudyRequest request = request_of(study_options(), *loaded, keywords);

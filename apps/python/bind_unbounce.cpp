@@ -18,7 +18,7 @@ namespace {
 using Array = py::array_t<double, py::array::c_style | py::array::forcecast>;
 using Numbers = py::array_t<int, py::array::c_style | py::array::forcecast>;
 
-// `errors`: of the same shape, or None.
+// `errors`: an array of the same shape, or None.
 std::vector<Estimate> estimates(const py::object& pictures, const py::object& errors) {
     std::vector<Estimate> result;
     if (pictures.is_none()) return result;
@@ -60,7 +60,7 @@ struct Task {
     Regions regions;
     UnbounceSettings settings;
     std::vector<std::string> names;
-    std::shared_ptr<const LightRenders> besides;  // of rendered pictures, what is known of them besides
+    std::shared_ptr<const LightRenders> besides;  // further data about rendered pictures
 
     LightPictures lights() const {
         LightPictures result;
@@ -156,7 +156,7 @@ std::unique_ptr<Job> under_lights(const std::shared_ptr<LoadedScene>& loaded, in
             return [made]() -> py::object {
                 std::vector<Estimate> direct;
                 for (std::size_t j = 0; j < made->pictures.size(); ++j) direct.push_back(made->direct_of(j));
-                const auto besides = std::make_shared<LightRenders>();  // arrays have the pictures
+                const auto besides = std::make_shared<LightRenders>();  // without the pictures, which are in the arrays
                 besides->parts = made->parts;
                 besides->by_way_of_unseen = made->by_way_of_unseen;
                 py::list warnings;

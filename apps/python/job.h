@@ -31,10 +31,10 @@ public:
 
     // Waits at most this many seconds; returns whether the work is done.
     bool wait(double seconds);
-    // Asks for an orderly end, like Ctrl-C in the command.
+    // Requests an orderly end, like Ctrl-C in the command.
     void stop();
 
-    // Called by the work, on any thread: what is being done, and the fraction done.
+    // Called by the work, on any thread: a description of the present work, and the finished fraction.
     void tell(std::string text, std::optional<double> fraction = std::nullopt);
     struct Status {
         std::string text;

@@ -4,7 +4,7 @@
 
 namespace {
 
-// As pybind11::register_exception, with any bytes in the message (apps/python/text.h).
+// Like pybind11::register_exception, with any bytes in the message (apps/python/text.h).
 template <class Error>
 void register_error(pybind11::module_& m, const char* name, PyObject* base, const char* doc) {
     static const pybind11::exception<Error> type(m, name, base);
@@ -68,7 +68,7 @@ std::string command_line(const LoadedScene& scene, const std::string& command, c
 }
 
 std::shared_ptr<const PatchScene> patch_scene(const LoadedScene& loaded, PatchOptions options) {
-    options.threads = 0;  // the job limits them
+    options.threads = 0;  // the job limits the number of threads
     return std::make_shared<const PatchScene>(options, loaded.scene);
 }
 

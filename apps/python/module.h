@@ -55,8 +55,8 @@ std::shared_ptr<const PatchScene> patch_scene(const LoadedScene& loaded, PatchOp
 py::array_t<float> as_array(const Image& image);
 // The same, or None if the image is empty.
 py::object as_array_or_none(const Image& image);
-// Mean, stderr, discretisation, spread, and (mean, standard error, degrees of freedom) of red, green, blue and all; None for
-// missing parts.
+// Mean, stderr, discretisation, spread, and (mean, standard error, degrees of freedom) of red, green, blue and all;
+// None for missing parts.
 py::tuple as_tuple(const PixelEstimate& picture, const std::optional<PictureMeans>& means);
 // Takes any numeric array of this shape. Throws InputError.
 Image as_image(const py::array_t<double, py::array::c_style | py::array::forcecast>& array);
@@ -64,13 +64,13 @@ Image as_image(const py::array_t<double, py::array::c_style | py::array::forceca
 // origin and direction (n, 3), length (n,), and pixel (n, 2), column and row.
 py::dict as_dict(std::span<const CameraRay> rays, std::span<const Pixel> pixels);
 
-// Keywords as options: names with - for _, and texts.
+// Keywords as options: their names have - instead of _, and their values are texts.
 using Keywords = Given;
 
-// The command line that asks for the same.
+// The command line for the same request.
 std::string command_line(const LoadedScene& scene, const std::string& command, const std::vector<std::string>& words);
 
-// What the keywords ask of a scene. Throws InputError, which begins with the keyword.
+// The request that the keywords describe. Throws InputError, which begins with the keyword.
 template <class Request>
 Request request_of(const Options<Request>& options, const LoadedScene& scene, Keywords keywords) {
     std::vector<std::string> words;

@@ -1,5 +1,5 @@
-// Text in Python and in C++. Names of files need not be UTF-8, and any text may hold one (an error, a warning, what a command was):
-// other bytes become lone surrogates in Python and bytes again here, as os.fsdecode and os.fsencode do it.
+// Text in Python and in C++. Names of files need not be UTF-8, and any text may contain one (an error, a warning, a
+// command line): other bytes become lone surrogates in Python and bytes again here, as in os.fsdecode and os.fsencode.
 #pragma once
 
 #include <pybind11/pybind11.h>

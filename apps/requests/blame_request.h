@@ -1,4 +1,4 @@
-// What `neumann blame` is asked for.
+// The request of `neumann blame`.
 #pragma once
 
 #include "apps/requests/option.h"
@@ -13,7 +13,7 @@ namespace neumann {
 
 struct BlameRequest {
     std::vector<std::string> pictures;    // files and folders, and the scene as the last
-    std::vector<std::string> again;       // the same with another seed
+    std::vector<std::string> again;       // pictures of another seed
     std::optional<std::string> channels;  // a layer of the files
     std::optional<std::string> counts;    // mitsuba, pbrt, cycles or bounces
     SceneFile scene;                      // its path is the last of `pictures`

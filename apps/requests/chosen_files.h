@@ -1,4 +1,4 @@
-// Which files a render writes beside run.json.
+// The files that a render writes beside run.json.
 #pragma once
 
 #include <string>
@@ -13,16 +13,17 @@ struct ChosenFiles {
     bool strips = true;    // strip-terms.png …
     bool page = true;      // index.html
     bool layers = false;   // layers.exr, on request
-    bool white = false;    // sheets and strips are on white, and not on black
+    bool white = false;    // sheets and strips have a white background instead of a black one
 };
 
-// "pictures", "tables", "sheets", "strips", "page", which are written by default; and "layers" beside them.
+// The groups "pictures", "tables", "sheets", "strips", "page", which are written by default; and all groups, with
+// "layers".
 const std::vector<std::string>& file_groups();
 const std::vector<std::string>& all_file_groups();
-// Those that `neumann page` makes: "sheets", "strips", "page".
+// The groups that `neumann page` makes: "sheets", "strips", "page".
 const std::vector<std::string>& page_file_groups();
 
-// Throws InputError for a name that is not one of them.
+// Throws InputError for a name that is not a group.
 ChosenFiles choose_files(const std::vector<std::string>& names, bool white = false);
 std::vector<std::string> names_of(const ChosenFiles& files);
 

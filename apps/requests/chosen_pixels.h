@@ -11,12 +11,12 @@ namespace neumann {
 
 struct ChosenPixels {
     std::vector<Vec2> pixels;  // x, y of the film
-    bool named = false;        // those of the samples that the health report names
+    bool named = false;        // also the pixels of the samples that the health report names
 
     bool empty() const { return pixels.empty() && !named; }
 };
 
-// Of "19,160" and "named". Throws InputError for other words, and where there are pixels and `files` have no page.
+// Reads "19,160" and "named". Throws InputError for other words, and if there are pixels but `files` have no page.
 ChosenPixels choose_pixels(const std::vector<std::string>& texts, const ChosenFiles& files);
 
 }  // namespace neumann

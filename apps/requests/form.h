@@ -1,4 +1,4 @@
-// How a value is written as a text, as users give it: on the command line, in Python, in files.
+// The textual form of a value, as users give it on the command line, in Python, and in files.
 #pragma once
 
 #include "operators/render/methods/named_values.h"
@@ -19,9 +19,9 @@ namespace neumann {
 template <class Value>
 struct Form {
     std::function<std::optional<Value>(const std::string&)> read;  // nothing if the text is wrong
-    std::function<std::string(const Value&)> print;                // read() of it is the value
+    std::function<std::string(const Value&)> print;                // the text from which read() gets the value
     std::function<std::string(const std::string&)> wrong;          // what is wrong with a text that is not read, in words
-    bool is_number = false;                                        // whether the text is that of a number in JSON, too
+    bool is_number = false;                                        // whether the value is also a number in JSON
 };
 
 inline auto not_a(std::string expected) {

@@ -1,4 +1,5 @@
-// The options of a request: one table, of which the command line, its help, Python's keywords and what is kept on disk are made.
+// The options of a request: one table, from which the command line, its help, Python's keywords and the requests on
+// disk are made.
 #pragma once
 
 #include "apps/requests/form.h"
@@ -17,23 +18,23 @@
 
 namespace neumann {
 
-// What is said of an option, whatever request it belongs to. Values are texts: one, of some options several, of a flag "true".
+// The description of an option, for any request. Values are texts: one, several for some options, "true" for a flag.
 struct OptionWords {
     enum class Kind { flag, one, many };
     Kind kind = Kind::one;
     std::string name, type, help;  // "spp", "N", "Samples a pixel"; a flag has no type
-    // What is wrong with a text, in words; "" if it can be read.
+    // Explains what is wrong with a text, in words; "" if it can be read.
     std::function<std::string(const std::string&)> wrong;
     bool is_number = false;  // in JSON
-    bool lasts = true;       // for a render that is resumed, too
+    bool lasts = true;       // also applies to a render that is resumed
 
-    // On the command line: "--spp", or "-n" with a letter, or "SCENE" if it stands by itself.
+    // The spelling on the command line: "--spp", or "-n" with a letter, or "SCENE" if it stands by itself.
     char letter = 0;
     bool stands_alone = false, is_required = false;
-    std::pair<int, int> count{0, 0};           // of the texts of one that stands alone and has several; 0: any
-    char comma = 0;                            // between several
-    std::optional<std::string> bare = {};      // what it means without a value
-    std::vector<std::string> excludes, needs;  // names of others
+    std::pair<int, int> count{0, 0};           // number of texts, for an option that stands alone and has several; 0: any
+    char comma = 0;                            // the separator of several values
+    std::optional<std::string> bare = {};      // the meaning without a value
+    std::vector<std::string> excludes, needs;  // names of other options
     bool shows_default = false;                // in the help
 
     std::string spelled() const {
@@ -46,9 +47,9 @@ struct OptionWords {
 // An option of a request, and the member that holds its value.
 template <class Request>
 struct Option : OptionWords {
-    // Requires that no text is wrong. Throws InputError for texts that do not go together.
+    // Sets the member. Requires that no text is wrong. Throws InputError for texts that exclude each other.
     std::function<void(Request&, const std::vector<std::string>&)> read;
-    // What read() makes the same value of; nothing if it is left open.
+    // The texts from which read() makes the same value; none if it is left open.
     std::function<std::vector<std::string>(const Request&)> texts;
 
     Option with_letter(char c) const { return with(&Option::letter, c); }
@@ -76,14 +77,14 @@ struct Options {
     std::string command, about;  // "render", "Render the bounces …"
     std::vector<Option<Request>> all;
 
-    // By its name or as the command line spells it; null if there is none.
+    // Finds an option by its name or as the command line spells it; null if there is none.
     const Option<Request>* find(const std::string& name) const {
         const auto found = std::ranges::find_if(all, [&](const auto& o) { return o.name == name || o.spelled() == name; });
         return found == all.end() ? nullptr : &*found;
     }
 };
 
-// What was given: names of options, and their texts.
+// The given options: their names and texts.
 using Given = std::vector<std::pair<std::string, std::vector<std::string>>>;
 
 namespace detail {
@@ -112,8 +113,8 @@ struct Held<std::vector<Value>> {
 
 }  // namespace detail
 
-// `member`: of a request; &Request::x, or a function that returns a reference. Its type says whether the option has one value, may
-// be left open, or has several. A text that is empty is left open.
+// Makes an option. `member`: a member of a request, &Request::x, or a function that returns a reference. Its type
+// determines whether the option has one value, may be left open, or has several. An empty text is left open.
 template <class Request, class Member, class Value>
 Option<Request> option(std::string name, std::string type, std::string help, Member member, Form<Value> form) {
     using Holder = std::remove_cvref_t<std::invoke_result_t<Member, Request&>>;
@@ -149,7 +150,7 @@ Option<Request> flag(std::string name, std::string help, Member member) {
     return o;
 }
 
-// An option of a request within another.
+// Makes an option of a request from one of a request inside it.
 template <class Outer, class Inner>
 Option<Outer> of_inner(const Option<Inner>& inner, Inner Outer::*member) {
     Option<Outer> o;
@@ -159,10 +160,10 @@ Option<Outer> of_inner(const Option<Inner>& inner, Inner Outer::*member) {
     return o;
 }
 
-// How an option is spelled where it was given.
+// The spelling of an option in the place where it was given.
 using Spelling = std::function<std::string(const OptionWords&)>;
 
-// Sets what is given. Throws InputError, which begins with the option's name as `spell` has it.
+// Sets the given options. Throws InputError, which begins with the option's name as `spell` returns it.
 template <class Request>
 void take(const Options<Request>& options, const Given& given, Request& request, const Spelling& spell) {
     const auto is_given = [&](const std::string& name) {

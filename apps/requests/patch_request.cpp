@@ -18,7 +18,7 @@ Form<std::uint64_t> power_of_two(std::uint64_t most) {
     return form;
 }
 
-// Those of the patches, and then `own`.
+// The options of the patches, followed by `own`.
 template <class R>
 std::vector<Option<R>> with_patches(std::vector<Option<R>> own) {
     using P = PatchOptions;

@@ -1,4 +1,4 @@
-// What `neumann solve`, `spectrum` and `export` are asked for: a scene on patches, and what is done with its matrices.
+// The requests of `neumann solve`, `spectrum` and `export`: a scene on patches, and what is done with its matrices.
 #pragma once
 
 #include "apps/requests/option.h"

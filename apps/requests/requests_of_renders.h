@@ -1,4 +1,4 @@
-// What the commands are asked that read the folders of renders.
+// The requests of commands that read the folders of renders.
 #pragma once
 
 #include "apps/requests/chosen_files.h"
@@ -6,21 +6,21 @@
 
 namespace neumann {
 
-// `neumann compare`
+// The request of `neumann compare`.
 struct CompareRequest {
     std::string a, b;               // two pictures or two folders; b is the reference
-    std::string output;             // the folder of a page of all folders, or empty
-    std::vector<std::string> more;  // folders that the page has besides
+    std::string output;             // the folder for a page of all folders, or empty
+    std::vector<std::string> more;  // further folders on the page
     bool flip = false, json = false;
 };
 
 const Options<CompareRequest>& compare_options();
 
-// `neumann merge`
+// The request of `neumann merge`.
 struct MergeRequest {
     std::vector<std::string> folders;
     std::string output;
-    std::string scene;  // where it is now; empty: where it was
+    std::string scene;  // its present path; empty: the path in the renders
     std::vector<std::string> files = file_groups();
     std::string theme = "dark";
     int threads = 0;  // 0: all
@@ -30,7 +30,7 @@ struct MergeRequest {
 
 const Options<MergeRequest>& merge_options();
 
-// `neumann page`
+// The request of `neumann page`.
 struct PageRequest {
     std::string folder;
     std::vector<std::string> files = page_file_groups();
@@ -42,7 +42,7 @@ struct PageRequest {
 
 const Options<PageRequest>& page_options();
 
-// `neumann replay`
+// The request of `neumann replay`.
 struct ReplayRequest {
     std::string folder;
     std::optional<std::uint64_t> number;      // number of a sample in the health report

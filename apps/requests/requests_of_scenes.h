@@ -1,4 +1,4 @@
-// What the commands are asked that render no picture of a scene, or many.
+// The requests of commands that render no picture of a scene, or many.
 #pragma once
 
 #include "apps/requests/option.h"
@@ -7,7 +7,7 @@
 
 namespace neumann {
 
-// `neumann plan`
+// The request of `neumann plan`.
 struct PlanRequest {
     SceneFile scene;
     bool json = false;
@@ -15,7 +15,7 @@ struct PlanRequest {
 
 const Options<PlanRequest>& plan_options();
 
-// `neumann convert`
+// The request of `neumann convert`.
 struct ConvertRequest {
     SceneFile scene;
     std::string output;
@@ -24,7 +24,7 @@ struct ConvertRequest {
 
 const Options<ConvertRequest>& convert_options();
 
-// `neumann conform`
+// The request of `neumann conform`.
 struct ConformRequest {
     std::string folder;
     std::string only;  // only scenes whose path contains this
@@ -37,7 +37,7 @@ struct ConformRequest {
 
 const Options<ConformRequest>& conform_options();
 
-// `neumann stress`
+// The request of `neumann stress`.
 struct StressRequest {
     std::string only;  // part of the names of cases; empty: all cases
     std::uint64_t seed = known::default_seed;

@@ -25,7 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The file that this code is in: the program, or Python's module.
+// The file that contains this code: the program, or Python's module.
 fs::path own_file() {
     std::error_code error;
     Dl_info info{};
@@ -39,8 +39,8 @@ fs::path own_file() {
 std::string scene_along(const std::string& name) {
     std::error_code error;
     if (name.empty() || name.find_first_of("/.") != std::string::npos || fs::exists(name, error)) return name;
-    // Installed, bin/neumann or lib/python3/dist-packages/neumann/; built, build/release/apps/neumann or
-    // build/release/python/neumann/.
+    // The own file is installed as bin/neumann or lib/python3/dist-packages/neumann/, and built as
+    // build/release/apps/neumann or build/release/python/neumann/.
     fs::path folder = own_file().parent_path();
     for (int up = 0; up <= 4 && !folder.empty(); ++up, folder = folder.parent_path())
         for (const char* scenes : {"share/neumann/scenes", "scenes"}) {

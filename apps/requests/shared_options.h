@@ -9,7 +9,7 @@ namespace neumann {
 
 constexpr std::uint64_t most_samples = std::uint64_t{1} << 40;
 
-// SCENE, which may be the name of one that comes along.
+// SCENE, which may be the name of a bundled scene.
 template <class Request>
 Option<Request> scene_option(SceneFile Request::*scene) {
     Form<std::string> form = any_text();
@@ -67,7 +67,7 @@ Option<Request> memory_option(std::optional<double> Request::*gibibytes) {
                            gibibytes, above_zero());
 }
 
-// `what` is written to disk.
+// `what`: the data that are written to disk.
 template <class Request>
 Option<Request> checkpoint_option(std::optional<double> Request::*seconds, const std::string& what) {
     return option<Request>(

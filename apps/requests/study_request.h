@@ -1,4 +1,4 @@
-// What `neumann study` is asked for.
+// The request of `neumann study`.
 #pragma once
 
 #include "apps/requests/option.h"
@@ -13,9 +13,10 @@ namespace neumann {
 
 struct StudyRequest {
     SceneFile scene;
-    std::string output;                // a folder; empty: out/NAME-study
-    std::vector<std::string> methods;  // as read_method() reads them, or names of estimators; empty: all that can do the scene
-    std::string reference;             // a method that renders it, a folder of an earlier render, or values:…; empty: chosen
+    std::string output;  // a folder; empty: out/NAME-study
+    // as read_method() reads them, or names of estimators; empty: all that can render the scene
+    std::vector<std::string> methods;
+    std::string reference;  // a method that renders it, a folder of an earlier render, or values:…; empty: chosen
     std::optional<std::uint64_t> reference_samples;
     std::vector<double> budgets;         // seconds per run; empty: chosen
     std::vector<std::uint64_t> samples;  // budgets in samples per pixel, in place of seconds

@@ -1,4 +1,4 @@
-// What `neumann unbounce` is asked for.
+// The request of `neumann unbounce`.
 #pragma once
 
 #include "apps/requests/option.h"
@@ -16,7 +16,7 @@ struct UnbounceRequest {
     std::optional<std::string> lights;  // "8x8"
     int width = 0;                      // of rendered pictures; 0: of the scene's film, at most 64
     int bounces = 6;
-    std::uint64_t samples = 256;  // of rendered pictures, a pixel, for all lights together
+    std::uint64_t samples = 256;  // of rendered pictures, per pixel, for all lights together
     std::optional<double> regularisation;
     bool direct = false;
     std::string picture, regions;  // files, or empty

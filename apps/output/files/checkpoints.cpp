@@ -56,7 +56,7 @@ Saving Checkpoints::saving(std::optional<RenderState> from) {
     saving.from = std::move(from);
     saving.longest_part = 0.5 * seconds_;
     saving.keep = [this](const auto&... so_far) { keep(so_far...); };
-    // What took long is kept also where the time is up.
+    // Results that took long are also kept if the time is up.
     saving.fields_are_due = [this](bool is_stopped) { return is_stopped ? interrupted() || has_saved_ : is_due(); };
     saving.keep_fields = [this](const auto&... so_far) { keep_fields(so_far...); };
     saving.has_all_fields = [this] { folder_.has_all_of_saved(); };

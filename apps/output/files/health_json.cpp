@@ -28,7 +28,7 @@ struct NamedSample {
 struct NamedSamples {
     std::vector<NamedSample> all;
     std::size_t first_self_hit = 0;
-    std::vector<std::size_t> largest;  // of each bounce and the rest; 0 where there is none
+    std::vector<std::size_t> largest;  // for each bounce and the rest; 0 if there is none
 
     explicit NamedSamples(const Health& health) {
         for (const NonFiniteSample& s : health.first_non_finite)
@@ -77,7 +77,7 @@ std::string bounce_text(const Health& health, std::size_t q) {
     return q + 1 == health.bounces.size() ? "the rest" : fmt::format("bounce {}", q);
 }
 
-// `of`: the name of what `count` counts.
+// `of`: the name of the things that `count` counts.
 Json balance_json(const EnergyBalance& balance, const char* unit, const char* of, std::uint64_t count) {
     Json bounces = Json::array();
     for (std::size_t i = 0; i < balance.bounces.size(); ++i) {

@@ -10,7 +10,7 @@
 
 namespace neumann {
 
-// Messages, one line each, that say what is wrong and where. `folder`: named in the command that replays it.
+// Messages, one line each, that report a problem and its place. `folder`: named in the command that replays it.
 std::vector<std::string> complaints(const Health& health, const Scene& scene, const std::string& folder);
 
 nlohmann::ordered_json as_json(const Health& health, const Scene& scene, const std::string& folder);

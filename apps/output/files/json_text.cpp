@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::string_view replacement = "\xef\xbf\xbd";
 
-// Of the entries of a folder, the one that is written like this.
+// The only entry of a folder that json_text() writes as `name`.
 std::optional<fs::path> entry_written_as(const fs::path& folder, const std::string& name) {
     std::optional<fs::path> found;
     std::error_code error;

@@ -9,7 +9,7 @@ namespace neumann {
 
 namespace {
 
-// 0, or the error number.
+// Returns 0, or the error number.
 int write_all(int file, std::span<const std::string_view> pieces) {
     for (std::string_view bytes : pieces)
         while (!bytes.empty()) {

@@ -23,7 +23,7 @@ bool is_whole_picture(const std::string& layer) {
     return end == "combined" || end == "beauty";
 }
 
-// As --channels takes them.
+// The layers in the form that --channels takes.
 std::string listed(std::vector<std::string> layers) {
     std::ranges::replace(layers, "", "RGB");
     return fmt::format("{}", fmt::join(layers, ", "));

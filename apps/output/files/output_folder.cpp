@@ -54,7 +54,7 @@ bool is_of_rows(std::string_view name) {
     return std::regex_match(name.begin(), name.end(), pattern);
 }
 
-// Onto the disk.
+// Flushes a file to the disk. Returns 0, or the error number.
 int flush(const fs::path& path) {
     const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
     if (file < 0) return errno;
@@ -209,7 +209,7 @@ void OutputFolder::write_pieces(const std::string& name, std::span<const std::st
 
 void OutputFolder::write_by(const std::string& name, const std::function<void(const fs::path&)>& make) {
     begin(name);
-    int error = write_new_file(partial(name), {});  // into which it is made
+    int error = write_new_file(partial(name), {});  // the file into which `make` writes
     if (error == 0) try {
             make(partial(name));
             error = flush(partial(name));

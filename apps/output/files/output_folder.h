@@ -12,7 +12,8 @@
 
 namespace neumann {
 
-// A render under way, what is kept of it when it is finished (saved_render.h), and a study's run under way.
+// Names of the states of an unfinished render, of a finished render (saved_render.h), and of an unfinished run of a
+// study.
 inline const std::string unfinished_render_file = "render.unfinished", samples_file = "render.samples",
                          unfinished_run_file = "study.unfinished";
 
@@ -23,9 +24,9 @@ bool is_output_name(std::string_view name);
 // process at a time writes to a folder.
 class OutputFolder {
 public:
-    // Creates the folder, and those above it, if they are missing. Throws InputError if the folder cannot be written or another run
-    // is writing to it ("out/x: cannot be written: Permission denied"), and if it holds files of another command, which commit()
-    // would remove. `locks`: false for a process of a run of which another locks it.
+    // Creates the folder, and those above it, if they are missing. Throws InputError if the folder cannot be written or
+    // another run is writing to it ("out/x: cannot be written: Permission denied"), and if it holds files of another
+    // command, which commit() would remove. `locks`: false if another process of the same run locks it.
     OutputFolder(const std::filesystem::path& path, std::string_view command, bool locks = true);
 
     // Without commit(), restores everything as it was.
@@ -38,23 +39,23 @@ public:
     // several files. Throws RunError if not all bytes can be written: "out/x/bounce_000.exr: cannot be written: No space left on
     // device".
     void write(const std::string& name, std::string_view bytes);
-    // The same of a file that `make` writes to the path that it is given, where it would be large in memory; what it throws as
-    // std::system_error becomes RunError.
+    // As write(), for a file that would be large in memory: `make` writes it to the path that it is given. Its
+    // std::system_error becomes a RunError.
     void write_by(const std::string& name, const std::function<void(const std::filesystem::path&)>& make);
 
-    // Puts preview.png or index.html in place at once, for a look at what is on its way. commit() and the destructor remove it, and
-    // where the process was killed, the next run removes preview.png. The index.html of a finished run is not to be replaced so
-    // (may_show_page()). As write().
+    // Puts preview.png or index.html of an unfinished run in place at once. commit() and the destructor remove it; if
+    // the process was killed, the next run removes preview.png. The index.html of a finished run must not be replaced
+    // in this way (may_show_page()). Throws as write().
     void show(const std::string& name, std::string_view bytes);
     bool may_show_page() const;
 
-    // Puts a file of these pieces in place at once, one after the other; it stays. As write().
+    // Puts a file made of these pieces in place at once; it stays. Throws as write().
     void put_at_once(const std::string& name, std::span<const std::string_view> pieces);
 
-    // Puts render.unfinished, or study.unfinished in a study's folder, one after the other of these pieces, in place at once, of
-    // which another process makes the pictures if this one does not. It stays until commit(), which calls it render.samples, or
-    // removes it if has_all_of_saved() was called after the last save(), or until forget(). If not all bytes can be written, the
-    // one before it stays as it was. As write().
+    // Puts render.unfinished, or study.unfinished in a study's folder, in place at once, made of these pieces; another
+    // process can make the pictures from it if this one does not. It stays until commit(), which renames it to
+    // render.samples, or removes it if has_all_of_saved() was called after the last save(); or until forget(). If not
+    // all bytes can be written, the previous one is unchanged. Throws as write().
     void save(std::span<const std::string_view> pieces);
     void has_all_of_saved() { needs_saved_ = false; }
     std::filesystem::path saved() const { return path_ / unfinished_; }
@@ -76,7 +77,7 @@ private:
     std::filesystem::path partial(const std::string& name) const { return path_ / ("." + name + ".partial"); }
     void write_pieces(const std::string& name, std::span<const std::string_view> pieces);
     void begin(const std::string& name);
-    void end(const std::string& name, int error);  // 0, or its number
+    void end(const std::string& name, int error);  // `error`: 0, or its number
     void put(const std::string& name);
     void expect_no_other_files(std::string_view command) const;
     void create();
@@ -92,7 +93,7 @@ private:
     std::mutex written_by_one_;
     std::vector<std::string> written_;
     std::set<std::string> shown_;
-    int descriptor_ = -1;  // of the folder; it holds the lock
+    int descriptor_ = -1;  // the folder's; it holds the lock
 };
 
 }  // namespace neumann

@@ -44,8 +44,8 @@ int exponent_of(const Image& mean) {
 // ⌊log2 x⌋ of a normal number.
 int exponent_bits(double x) { return static_cast<int>(std::bit_cast<std::uint64_t>(x) >> 52 & 2047) - 1023; }
 
-// A half, times 2^exponent, rounded to a multiple of the largest power of two that is at most 1/8 of its error, or of its own
-// first bit where that is less.
+// A half, times 2^exponent, rounded to a multiple of the largest power of two that is at most 1/8 of its error, or of
+// its own first bit if that is less.
 std::uint16_t without_noise(std::uint16_t half, int exponent, double error) {
     constexpr int kept_of_error = 3, fraction_bits = 10, largest_exponent = 31;
     const int own = half >> fraction_bits & largest_exponent;
@@ -57,7 +57,7 @@ std::uint16_t without_noise(std::uint16_t half, int exponent, double error) {
     return (rounded & 0x7fff) != 0 ? rounded : half;
 }
 
-// How far off a pixel may be: by its noise, and by what patches get wrong.
+// The errors of pixels: their noise and their discretisation.
 Image errors_of_means(const Image& noise, const Image& discretisation) {
     if (discretisation.pixels.empty()) return noise;
     Image errors = discretisation;
@@ -71,7 +71,7 @@ Image errors_of_means(const Image& noise, const Image& discretisation) {
 void add_halves(const Image& mean, const Image& errors, int exponent, std::string& bytes) {
     const std::size_t n = mean.pixels.size(), start = bytes.size();
     bytes.resize(start + 6 * n);
-    // In two steps, since a single power of two may be beyond the range of double.
+    // The scale is applied in two steps, because a single power of two may be beyond the range of double.
     const double half_scale = std::ldexp(1.0, -exponent / 2), scale = std::ldexp(1.0, -exponent - -exponent / 2);
     for_pixels(n, [&](std::size_t i) {
         std::uint16_t red = 0;
@@ -93,7 +93,7 @@ float log2_of(double x) {
     return std::log2(part) + static_cast<float>(exponent);
 }
 
-// A channel after the other: −∞ for no error, ∞ for an unknown one.
+// The logarithms, channel by channel: −∞ for no error, ∞ for an unknown one.
 std::vector<float> logarithms(const Image& errors) {
     const std::size_t n = errors.pixels.size();
     std::vector<float> logs(3 * n);
@@ -120,7 +120,7 @@ std::vector<float> largest_of_blocks(const std::vector<float>& logs, std::size_t
     return largest;
 }
 
-// What the codes 1 to 254 stand for.
+// The scale of the codes 1 to 254.
 class LogScale {
 public:
     explicit LogScale(const std::vector<float>& logs) {
@@ -151,7 +151,7 @@ private:
     double low_ = 0.0, step_ = finest_step;
 };
 
-// `before`: codes that are subtracted, or none.
+// `before`: the codes that are subtracted, or null.
 void add_codes(const std::vector<std::uint8_t>& codes, const std::vector<std::uint8_t>* before, std::size_t n, std::string& bytes) {
     const std::size_t start = bytes.size();
     bytes.resize(start + codes.size());
@@ -173,9 +173,9 @@ std::string deflated(const std::string& bytes) {
     return out;
 }
 
-// 13 bits, the lowest first, in two of 91 characters (8192 < 91²; Henke's basE91 without its 14th bit), which is 8% shorter than
-// base 64. The characters are those of ASCII that are seen, but for < & and the backslash. A last character that is alone has 6
-// bits.
+// Writes each 13 bits, the lowest first, as two of 91 characters (8192 < 91²; Henke's basE91 without its 14th bit),
+// which is 8% shorter than base 64. The characters are the visible ones of ASCII, except < & and the backslash. A last
+// single character has 6 bits.
 std::string base91(const std::string& bytes) {
     std::string digits;
     for (char c = '!'; c <= '~'; ++c)

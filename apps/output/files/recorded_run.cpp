@@ -133,7 +133,7 @@ RecordedSamplers::Place RecordedSamplers::find(SampleName name) {
     if (!run_.merged.empty() && std::holds_alternative<method::Mixed>(run_.render.method))
         throw InputError(
             "a mixture's samples have their numbers in the render of one seed; expected one of those that were merged");
-    // Where pixels have as many samples each, before a pilot takes its time.
+    // If all pixels have equally many samples, the number is checked before a pilot takes its time.
     if (!adaptive_of(run_.render.method) && !std::holds_alternative<method::Mixed>(run_.render.method))
         expect_sample(asked, run_.first, run_.samples);
     for (std::size_t i = 0; i < run_.merged.size(); ++i) {

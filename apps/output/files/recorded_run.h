@@ -1,4 +1,4 @@
-// A render as its run.json tells it, and its samples traced again.
+// A render as described by its run.json, and its samples, which can be traced again.
 #pragma once
 
 #include "apps/requests/scene_file.h"
@@ -19,10 +19,10 @@ struct RecordedRun {
     std::string folder, hash, version;
     SceneFile scene;
     RecordedRender render;
-    std::uint64_t first = 0, samples = 0;  // of a part, the first is above 0
-    std::vector<SeedRange> merged;         // where the samples are of several seeds
+    std::uint64_t first = 0, samples = 0;  // in a part of a render, `first` is above 0
+    std::vector<SeedRange> merged;         // set if the samples are of several seeds
     struct Named {
-        Pixel pixel;  // of its path
+        Pixel pixel;  // the pixel of its path
         std::uint64_t sample;
         std::string why;  // "bounce 3: the largest sample of …"
     };
@@ -31,10 +31,10 @@ struct RecordedRun {
 
 // Throws InputError if there is no such folder or run.json, and if the method has no paths.
 RecordedRun read_recorded_run(const std::string& folder);
-// Of a render whose run.json is not on disk yet; `folder`: for messages.
+// The same for a render whose run.json is not on disk yet; `folder`: for messages.
 RecordedRun recorded_run(const BounceSeries& series, const SceneFile& file, const Scene& scene, const std::string& folder);
 
-// Its scene. Warns on stderr if that has changed since, or if another version rendered it.
+// Reads its scene. Warns on stderr if that has changed since, or if another version rendered it.
 Scene read_scene_of(const RecordedRun& run);
 
 // The number of a pixel. Throws InputError, which begins with the option, if it is not in the picture.
@@ -53,8 +53,8 @@ public:
     // The scene and the run must outlive this object.
     RecordedSamplers(const Scene& scene, const RecordedRun& run) : scene_(scene), run_(run) {}
 
-    // The sampler that has a sample, and its name there; of a merged render, that of the seed that has it. Throws InputError if the
-    // run has no such sample.
+    // The sampler that has a sample, and its name there; for a merged render, the sampler of the seed that has it.
+    // Throws InputError if the run has no such sample.
     struct Place {
         const RecordedSamples& samples;
         SampleName name;
@@ -64,7 +64,7 @@ public:
     std::vector<ReplicatesOf> replicates();
 
 private:
-    // Of seed number i; of the only one, 0.
+    // The samples of seed number i; 0 if there is only one.
     const RecordedSamples& of_seed(std::size_t i);
 
     const Scene& scene_;

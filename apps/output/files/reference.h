@@ -25,7 +25,7 @@ private:
 // Reads a picture of an earlier render. Throws InputError also if its size is not that of the film.
 RenderedPicture read_reference(const std::string& folder, const std::string& file, const Film& film);
 
-// Warns if, according to the reference's run.json (if there is one), it is of no use for this series.
+// Warns if the reference is of no use for this series, according to its run.json (if there is one).
 void warn_of_reference(const std::string& folder, const BounceSeries& series, Warnings& warnings);
 
 }  // namespace neumann

@@ -20,7 +20,7 @@ public:
         auto operator<=>(const Size&) const = default;
     };
 
-    // Throws InputError, which begins with the file: no such file, or a run.json that lacks something that the page shows.
+    // Throws InputError, which begins with the file: no such file, or a run.json without something that the page shows.
     explicit RenderedFolder(const std::string& folder);
 
     const std::filesystem::path& path() const { return path_; }
@@ -30,9 +30,10 @@ public:
     bool has_rest() const;
     std::size_t pictures() const { return bounces() + (has_rest() ? 1 : 0); }
 
-    // The pictures, which are read when they are asked for. Throws InputError: not there, damaged, of another size.
+    // The pictures, which are read when they are needed. Throws InputError if they are missing, damaged, or of another
+    // size.
     ShownSeries series() const;
-    // Of one of these files.
+    // Reads one of these files.
     PixelEstimate picture(const std::string& name) const;
     // The text of a file; nothing if there is none.
     std::optional<std::string> text(const std::string& name) const;

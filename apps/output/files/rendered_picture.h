@@ -19,8 +19,8 @@ struct RenderedPicture {
     bool has_error() const { return !picture.standard_error.pixels.empty(); }
 };
 
-// The header attributes of a picture's means: neumann:mean, neumann:mean_stderr and neumann:mean_degrees_of_freedom over pixels and
-// channels, and the same names followed by .R, .G and .B for each channel.
+// The header attributes of a picture's means: neumann:mean, neumann:mean_stderr and neumann:mean_degrees_of_freedom
+// over pixels and channels, and the same names followed by .R, .G and .B for each channel.
 Attributes mean_attributes(const PictureMeans& means);
 
 // Throws InputError as read_exr().

@@ -13,7 +13,7 @@ namespace neumann {
 // "from the camera", "reflection 2 of the light's path", "looks for light for bounce 1".
 std::string heading(const PathStep& step);
 
-// Three numbers; one that is not finite is a text.
+// Three numbers; a number that is not finite becomes a text.
 nlohmann::ordered_json as_json(const Vec3& x);
 
 nlohmann::ordered_json as_json(const ReplayedStep& step, const Scene& scene);

@@ -10,7 +10,7 @@
 
 namespace neumann {
 
-// {"scene": "room.xml", "spp": 64, "lenient": true, …}: what differs from the defaults and lasts.
+// {"scene": "room.xml", "spp": 64, "lenient": true, …}: the options that differ from the defaults and last.
 template <class Request>
 nlohmann::ordered_json as_json(const Options<Request>& options, const Request& request) {
     nlohmann::ordered_json json = nlohmann::ordered_json::object();
@@ -28,8 +28,8 @@ nlohmann::ordered_json as_json(const Options<Request>& options, const Request& r
     return json;
 }
 
-// Names may be spelled as on the command line, and values be lists of texts, as version 0.1 wrote run.json. Throws InputError that
-// begins with `file`, or the JSON library's exception if it is no object.
+// Reads a request. Names may be spelled as on the command line, and values be lists of texts, as version 0.1 wrote
+// run.json. Throws InputError that begins with `file`, or the JSON library's exception if it is no object.
 template <class Request>
 Request request_from_json(const Options<Request>& options, const nlohmann::ordered_json& json, const std::string& file) try {
     Given given;

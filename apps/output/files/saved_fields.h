@@ -1,4 +1,4 @@
-// What there is of a render from fields, in a state file.
+// Stores the progress of a render from fields in a state file.
 #pragma once
 
 #include "apps/output/files/state_file.h"
@@ -11,7 +11,7 @@
 
 namespace neumann {
 
-// For the header; adds the numbers that it counts to `numbers`, which refers to them.
+// The part of the header; appends the numbers that it counts to `numbers`, which refers to them.
 nlohmann::ordered_json as_json(const FieldProgress& progress, std::vector<std::string_view>& numbers);
 FieldProgress fields_from(const nlohmann::ordered_json& json, StateFile& file);
 

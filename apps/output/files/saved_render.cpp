@@ -92,8 +92,8 @@ MethodChoice choice_from(const Json& json) {
     return choice;
 }
 
-// A row: samples, rays, seconds, the errors of the sum, of each term, and the same against a reference, with NaN where there is
-// none.
+// A row for each checkpoint: samples, rays, seconds, the errors of the sum, of each term, and the same against a
+// reference, with NaN if there is none.
 std::vector<double> convergence_of(const std::vector<Checkpoint>& checkpoints, std::size_t terms) {
     std::vector<double> numbers;
     for (const Checkpoint& c : checkpoints) {
@@ -122,7 +122,7 @@ std::vector<Checkpoint> checkpoints_from(std::span<const double> numbers, std::s
     return checkpoints;
 }
 
-// What the header of every state tells.
+// The part of the header that every state has.
 Json header_of(const RequestOnDisk& request, const RecordedRender& render, const std::optional<MethodChoice>& choice) {
     Json header = {{"request", request.request}, {"scene_hash", request.scene_hash}};
     header.update(neumann::as_json(render));

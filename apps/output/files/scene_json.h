@@ -1,4 +1,4 @@
-// The scene of a run, as its JSON and its pictures name it.
+// The scene of a run, as its JSON and its pictures describe it.
 #pragma once
 
 #include "apps/requests/scene_file.h"
@@ -11,11 +11,11 @@
 
 namespace neumann {
 
-// File, hash and definitions, and what a lenient reader replaced or left out, if anything.
+// The file, hash and definitions, and the things that a lenient reader replaced or left out, if any.
 nlohmann::ordered_json scene_json(const Scene& scene, const SceneFile& file);
 
-// For pictures of a scene that a lenient reader changed: what their headers say, and what is appended to their labels; both are
-// empty for other scenes. `replaced`: Scene::replaced.
+// The text in the headers of pictures of a scene that a lenient reader changed, and the text appended to their labels;
+// both are empty for other scenes. `replaced`: Scene::replaced.
 std::string lenient_note(const std::vector<std::string>& replaced);
 std::string lenient_label(const std::vector<std::string>& replaced);
 inline std::string lenient_note(const Scene& scene) { return lenient_note(scene.replaced); }

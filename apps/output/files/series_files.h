@@ -13,8 +13,8 @@
 
 namespace neumann {
 
-// Writes bounce_000.exr …, sum_000.exr …, rest.exr, contact-sheet.png, bounces.gif, strip-terms.png …, and packs the pictures for
-// index.html; what is chosen of them.
+// Writes the chosen ones of bounce_000.exr …, sum_000.exr …, rest.exr, contact-sheet.png, bounces.gif, strip-terms.png
+// …, and packs the pictures if index.html is chosen.
 ShownPictures write_pictures(OutputFolder& folder, const BounceSeries& series, const ChosenFiles& files, const Scene& scene,
                              PackedSeries& packed);
 
@@ -29,11 +29,11 @@ std::string rest_exr(const BounceSeries& series, const Scene& scene);
 // Writes layers.exr: a part for each bounce, as in its own file, for their sum and for the rest.
 void write_layers(OutputFolder& folder, const BounceSeries& series, const Scene& scene);
 
-// Approximate number of bytes that a render writes if its EXR files do not compress.
+// The approximate number of bytes that a render writes if its EXR files do not compress.
 double estimated_bytes(const Film& film, int bounces, bool has_discretisation, const ChosenFiles& files);
 
-// For a full disk: writes series.csv, and those of bounce_000.exr … and rest.exr that fit. Returns the names of those that do not
-// fit.
+// For a full disk: writes series.csv, and those of bounce_000.exr … and rest.exr that fit. Returns the names of the
+// others.
 std::vector<std::string> write_terms_that_fit(OutputFolder& folder, const BounceSeries& series, const Scene& scene);
 
 // The contents of series.csv and of convergence.csv.

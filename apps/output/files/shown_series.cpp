@@ -17,7 +17,7 @@ namespace {
 
 using Jobs = std::vector<std::function<void()>>;
 
-// What is in hand for a picture that is written: its estimates in double, their floats, the file.
+// The memory for a picture while it is written: its estimates in double, their floats, the file.
 constexpr double bytes_a_pixel = 200.0, bytes_in_hand = 0x1p31;
 constexpr std::size_t most_in_hand = 64;
 
@@ -31,7 +31,7 @@ struct Means {
     std::vector<Image> terms, sums;
 };
 
-// Each picture is asked for once, for the page and for the sheets.
+// Requests each picture once, for the page and for the sheets.
 Means pack_pictures(const ShownSeries& series, bool page, PackedSeries& packed) {
     const std::size_t pictures = series.bounces + (series.has_rest ? 1 : 0);
     Means means{std::vector<Image>(pictures), std::vector<Image>(series.bounces)};

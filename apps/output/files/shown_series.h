@@ -1,5 +1,5 @@
-// What is made of the pictures of a series for the eye: the page, slides, strips and sheets. `render` makes the pictures, and
-// `page` reads them from its files; what is shown is the same.
+// The pictures of a series for the page, slides, strips and sheets. `render` makes the pictures, and `page` reads them
+// from its files; the result is the same.
 #pragma once
 
 #include "apps/output/files/output_folder.h"
@@ -18,20 +18,20 @@ struct ShownSeries {
     int width = 0, height = 0;
     std::string lenient_label, lenient_note;  // scene_json.h
     const Mixture* mixture = nullptr;
-    // As in their files (in_file.h), each asked for once, on any thread; term(N + 1) is the rest.
+    // The pictures as in their files (in_file.h). Each is requested once, on any thread; term(N + 1) is the rest.
     std::function<PixelEstimate(std::size_t)> term, sum;
 };
 
 struct ShownPictures {
-    std::string warning;    // says that labels were left out; empty otherwise
+    std::string warning;    // reports that labels were left out; empty otherwise
     double exposure = 1.0;  // of the page, the contact sheet, the strips and the flip-book
 };
 
 // Packs the pictures for a page, and returns its exposure.
 double pack_series(const ShownSeries& series, PackedSeries& packed);
 
-// Packs the pictures for index.html, if that is chosen, and writes contact-sheet.png, bounces.gif, strip-terms.png …, what is
-// chosen of them.
+// Packs the pictures if index.html is chosen, and writes the chosen ones of contact-sheet.png, bounces.gif,
+// strip-terms.png ….
 ShownPictures show_series(OutputFolder& folder, const ShownSeries& series, const ChosenFiles& files, PackedSeries& packed);
 
 }  // namespace neumann

@@ -1,6 +1,6 @@
-// A file of what is under way: the line "neumann state 3", the size of the header (8 bytes, little-endian), the header (JSON), a
-// hash of these (XXH3, 8 bytes), the numbers that the header counts, and a hash of all. A file that is cut off or has another byte
-// anywhere is refused, and one of another version of the program.
+// The file of an unfinished render: the line "neumann state 3", the size of the header (8 bytes, little-endian), the
+// header (JSON), a hash of these (XXH3, 8 bytes), the numbers that the header counts, and a hash of everything. A file
+// is refused if it is cut off, has another byte anywhere, or is of another version of the program.
 #pragma once
 
 #include "apps/output/files/output_folder.h"
@@ -31,10 +31,11 @@ std::string_view bytes_of(const T* first, std::size_t count) {
 // Calls `write` with the pieces of the file.
 void write_state(nlohmann::ordered_json header, std::vector<std::string_view> numbers,
                  const std::function<void(std::span<const std::string_view>)>& write);
-// A render under way.
+// Writes the state of an unfinished render.
 void write_state(OutputFolder& folder, nlohmann::ordered_json header, std::vector<std::string_view> numbers);
 
-// Reads one from its beginning. Throws InputError ("out/x/render.unfinished: damaged: …") where it is not whole.
+// Reads a state file from its beginning. Throws InputError ("out/x/render.unfinished: damaged: …") if it is not
+// complete.
 class StateFile {
 public:
     explicit StateFile(const std::filesystem::path& path);
@@ -42,7 +43,7 @@ public:
     StateFile(const StateFile&) = delete;
 
     const nlohmann::ordered_json& header() const { return header_; }
-    // The next ones.
+    // Reads the next numbers.
     template <class T>
     std::vector<T> numbers(std::uint64_t count) {
         if (count > left_ / sizeof(T)) damaged("it ends too early");
@@ -50,7 +51,7 @@ public:
         read(all.data(), count * sizeof(T));
         return all;
     }
-    // Compares the hash. What was read is true only if this does not throw.
+    // Compares the hash. The data are valid only if this does not throw.
     void expect_end();
     [[noreturn]] void damaged(const std::string& why) const;
 

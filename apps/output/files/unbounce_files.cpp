@@ -34,7 +34,7 @@ std::vector<std::string> files_in(const std::string& folder) {
     for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
         if (entry->path().extension() == ".exr") files.push_back(entry->path().string());
     if (error) throw InputError(fmt::format("{}: cannot be read: {}", folder, error.message()));
-    // light_1000.exr is after light_999.exr.
+    // This order puts light_1000.exr after light_999.exr.
     std::ranges::sort(files, [](const std::string& a, const std::string& b) { return strverscmp(a.c_str(), b.c_str()) < 0; });
     return files;
 }
@@ -144,7 +144,7 @@ void write_unbounced(OutputFolder& folder, const Unbounced& found, const std::ve
         folder.write(numbered("backward", n + 1), term_exr(found, n));
         if (n >= shown) continue;
         const Image& reference = forward.empty() ? found.terms[n].mean : forward[n].mean;
-        // Rounded down to a power of two, as the strips of a render.
+        // The factor is rounded down to a power of two, as in the strips of a render.
         const double factor = std::max(1.0, std::exp2(std::floor(std::log2(exposure_for(reference, black) / exposure) + 1e-3)));
         const std::string times = factor == 1.0 ? "" : fmt::format("{:g} ", factor);
         strip[0].push_back({fmt::format("{}C{} L", times, superscript(n + 1)), &found.terms[n].mean, factor});

@@ -1,4 +1,5 @@
-// What `neumann unbounce` writes and reads: pictures under separate lights, terms backward and forward, and what is said of them.
+// The files that `neumann unbounce` writes and reads: pictures under separate lights, terms backward and forward, and
+// statements about them.
 #pragma once
 
 #include "apps/output/files/output_folder.h"
@@ -14,8 +15,8 @@
 
 namespace neumann {
 
-// A folder of pictures under separate lights: light_000.exr … with direct_000.exr … and forward_001.exr … where these are, or else
-// all OpenEXR files, by name.
+// A folder of pictures under separate lights: light_000.exr …, with direct_000.exr … and forward_001.exr … if they
+// exist, or else all OpenEXR files, by name.
 struct LightFolder {
     std::vector<std::string> lights, direct, forward;  // paths
     std::optional<std::pair<int, int>> blocks;         // columns and rows, if neumann rendered them
@@ -23,16 +24,17 @@ struct LightFolder {
 
 // Throws InputError if there are no pictures, or not as many of direct light.
 LightFolder read_light_folder(const std::string& folder);
-// Mean and, where the file has them, errors. Throws InputError as read_exr().
+// The mean and, if the file has them, errors. Throws InputError as read_exr().
 Estimate read_light(const std::string& path);
 
-// Light j of the pictures is in region j + 1; 0 stands for none. Throws InputError for values that are not whole.
+// Reads the regions: light j of the pictures has region j + 1; 0 stands for none. Throws InputError for values that are
+// not whole.
 Regions read_regions(const std::string& path);
 
-// light_000.exr …, direct_000.exr … and forward_001.exr ….
+// Writes light_000.exr …, direct_000.exr … and forward_001.exr ….
 void write_light_renders(OutputFolder& folder, const LightRenders& renders);
 
-// backward_001.exr …, backward_rest.exr and unbounced.png.
+// Writes backward_001.exr …, backward_rest.exr and unbounced.png.
 void write_unbounced(OutputFolder& folder, const Unbounced& found, const std::vector<Estimate>& forward);
 
 nlohmann::ordered_json unbounce_json(const Unbounced& found, const std::vector<std::string>& names,

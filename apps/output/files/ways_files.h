@@ -12,9 +12,9 @@
 
 namespace neumann {
 
-// Writes way_s1_t3.exr …, way_s1_t3_unweighted.exr …, and ways.png with all of them; what is chosen of these.
+// Writes the chosen ones of way_s1_t3.exr …, way_s1_t3_unweighted.exr …, and ways.png with all of them.
 void write_ways(OutputFolder& folder, const Ways& ways, const ChosenFiles& files);
-// ways.png anew, from the files of a render that has them.
+// Writes ways.png again, from the files of a render that has them.
 void write_sheet_of_ways(OutputFolder& folder, const RenderedFolder& rendered);
 std::string ways_table(const Ways& ways);
 nlohmann::ordered_json as_json(const Ways& ways);

@@ -36,7 +36,7 @@ ShownPictures write_pictures(OutputFolder& folder, const BounceSeries& series, c
     if (!files.pictures && !files.page && !files.sheets && !files.strips) return {};
     ShownSeries shown = shown_series(series, scene);
     if (files.pictures) {
-        // Each picture is estimated once, for its file and for what is shown.
+        // Each picture is estimated once, for its file and for display.
         shown.term = [&](std::size_t i) {
             if (i == series.report.bounces.size()) {
                 folder.write("rest.exr", rest_exr(series, scene));

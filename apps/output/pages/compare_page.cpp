@@ -13,7 +13,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Pictures are reduced so that `pictures` of them fit.
+// The pictures are reduced so that `pictures` of them fit on a page.
 ExploredRun explored(const RenderedFolder& rendered, std::size_t pictures, OutputFolder& folder) {
     const auto convergence = rendered.text("convergence.csv");
     if (!convergence)

@@ -15,14 +15,14 @@ struct ExploredRun {
     double exposure = 1.0;       // initial exposure of the page
     PackedSeries pictures;       // packed: bounces 0 … N, and the rest if `has_rest`
     bool has_rest = false;
-    nlohmann::ordered_json paths = nullptr;  // of some pixels (paths_json.h)
-    bool is_under_way = false;               // the page says so
+    nlohmann::ordered_json paths = nullptr;  // the paths of some pixels (paths_json.h)
+    bool is_under_way = false;               // the page shows that the render is not finished
 };
 
 // `runs`: one run, or A and B; `comparison`: for two runs, the output of `neumann compare --json`.
 std::string explorer_page(const std::vector<const ExploredRun*>& runs, const nlohmann::ordered_json& comparison = nullptr);
 
-// What it shows, as the elements of the page that hold it; and the page of these.
+// The elements of the page that hold the data; and the page with these elements.
 std::string explorer_data(const std::vector<const ExploredRun*>& runs, const nlohmann::ordered_json& comparison = nullptr);
 std::string explorer_page(std::string_view data);
 

@@ -8,7 +8,7 @@
 
 namespace neumann {
 
-// A file of apps/output/pages, or chart.js, which is part of the program; see embed.cmake.
+// A file of apps/output/pages, or chart.js, which are embedded in the program; see embed.cmake.
 std::string_view embedded_file(std::string_view name);
 
 // The page `name` with each /*include FILE*/ replaced by that file, and /*data*/ by all of `data`.

@@ -59,7 +59,7 @@ public:
         return {from.x, from.y, to.x, to.y};
     }
 
-    // A ray as replay tells it, and where it lies.
+    // A ray as replay reports it, with its position on the film and from above.
     Json ray(const ReplayedStep& s) const {
         const PathStep& step = s.step;
         const bool leaves = step.to.is_infinite() || (!step.found && step.kind != PathStep::Kind::asks);
@@ -95,10 +95,10 @@ private:
     const Scene& scene_;
     FloorPlan plan_;
     std::uint32_t sensor_;
-    double far_;  // to where rays are drawn that leave the scene
+    double far_;  // length to which rays that leave the scene are drawn
 };
 
-// Of each bounce at each number of samples: red, green, blue, and their standard errors.
+// For each number of samples and each bounce: red, green, blue, and their standard errors.
 Json history_json(const PixelHistory& history) {
     Json json = {{"samples", Json::array()}, {"interval_factor", Json::array()}, {"terms", Json::array()}, {"sums", Json::array()}};
     const auto of = [](const std::vector<PixelHistory::Mean>& means) {

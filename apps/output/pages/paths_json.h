@@ -1,4 +1,5 @@
-// The paths of pixels for the page: their rays on the film and from above, what they bring, and how the pixels' means came about.
+// The paths of pixels for the page: their rays on the film and from above, their contributions, and the histories of
+// the pixels' means.
 #pragma once
 
 #include "apps/output/files/recorded_run.h"

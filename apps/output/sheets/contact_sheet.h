@@ -17,7 +17,7 @@ struct SheetLayout {
 
 struct SheetHeadings {
     std::string terms = "bounces", sums = "sums";
-    std::string comment = {};  // that the file carries, unless it is empty
+    std::string comment = {};  // a comment in the file, unless it is empty
 };
 
 // The layout with the largest thumbnails on a sheet of at most about 2400×2400 pixels, for pictures of `width` × `height` pixels.

@@ -12,7 +12,7 @@ namespace neumann {
 // Margin around all pictures of a sheet, and gap between two of them, in pixels.
 inline constexpr int sheet_margin = 24, sheet_gap = 12;
 
-// Grey levels.
+// Grey levels of a sheet.
 struct SheetTheme {
     std::uint8_t background, text;
 };
@@ -47,8 +47,8 @@ DisplayImage with_label(const LabelledPicture& picture, int width, int height, d
                         const SheetStyle& style);
 constexpr int label_height(int label_size) { return 5 * label_size / 3; }
 
-// The scale for pictures of this size if the scale `fitting` fits. Small pictures are enlarged up to eight times or to 128 pixels,
-// whichever is larger, by whole factors, so that pixels stay square and equal.
+// The scale for pictures of this size if the scale `fitting` fits. Small pictures are enlarged up to eight times or to
+// 128 pixels, whichever is larger, by whole factors, so that pixels stay square and equal.
 double scale_shown(int width, int height, double fitting);
 
 }  // namespace neumann

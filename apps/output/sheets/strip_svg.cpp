@@ -11,7 +11,7 @@
 namespace neumann {
 namespace {
 
-// RFC 4648.
+// Base 64 by RFC 4648.
 std::string base64(const std::string& bytes) {
     constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     std::string out;

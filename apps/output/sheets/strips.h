@@ -15,7 +15,7 @@ using Pictures = std::vector<LabelledPicture>;
 
 // All pictures of a series, in scene-linear radiance, of one size; they must outlive this object.
 struct SeriesPictures {
-    std::span<const Image> terms, sums;  // of bounces 0 to N
+    std::span<const Image> terms, sums;  // for bounces 0 to N
     const Image* rest = nullptr;         // the sum of all later bounces and (`limit`) of all bounces, if they are known
     const Image* limit = nullptr;
     std::string K = "K", Le = "Le";  // or "K*", "We"
@@ -41,7 +41,7 @@ Strip strip_of_mixture(const Mixture& mixture, std::vector<Image>& maps);
 
 constexpr int largest_picture = 480, strip_label_size = 20;
 
-// Where pictures of `width` × `height` stand, each with its label below.
+// The places of pictures of `width` × `height` in a strip, each with its label below.
 struct StripLayout {
     int border, rows, columns, width, height;
 

@@ -6,7 +6,7 @@
 
 namespace neumann {
 
-// In UTF-8.
+// The number in superscript digits, in UTF-8.
 inline std::string superscript(std::size_t n) {
     static constexpr const char* digits[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
     std::string text;

@@ -10,7 +10,7 @@
 
 namespace neumann {
 
-// Called with what is being done, and with the fraction of all runs that is done.
+// Called with a description of the present work, and with the finished fraction of all runs.
 using StudyStatus = std::function<void(const std::string& what, double fraction)>;
 
 struct StudyData {
@@ -18,14 +18,14 @@ struct StudyData {
     const std::vector<StudyMethod>& methods;
     const Scene& scene;
     const Pilot& pilot;
-    Crew* crew = nullptr;  // processes that render, too
+    Crew* crew = nullptr;  // processes that render with this one
     int bounces = 0;
     StudyPlan plan;
     StudyReference reference;
     double scene_seconds = 0.0, pilot_seconds = 0.0;
-    bool peak_is_of_run = true;         // the peak memory is of each run; otherwise of all runs so far
+    bool peak_is_of_run = true;         // whether the peak memory is of each run; otherwise it is of all runs so far
     std::vector<StudyPoint> points;     // those with at least two repeats
-    std::vector<std::string> left_out;  // methods that refuse the scene, and why, where none were named
+    std::vector<std::string> left_out;  // methods that refuse the scene, and why, if none were named
     std::vector<ComparedCrop> crops;
     bool complete = false;
 
@@ -34,15 +34,16 @@ struct StudyData {
     std::string picture_name(std::size_t picture) const;                                         // "0" … "sum"
     std::string picture_title(std::size_t picture) const;  // "bounce 0" … "the sum of bounces 0 to 4"
     std::vector<std::string> warnings() const;
-    std::size_t fewest_repeats() const;  // of any point; fewer than were asked for where the study was cut off
+    // the least number of any point; smaller than requested if the study was cut off
+    std::size_t fewest_repeats() const;
 };
 
 struct StudyEnd {
     bool complete;
     std::size_t done, runs;
 };
-// Runs the study in request.output, and calls `found` with the results, if there are any. `own`: estimators that the methods name.
-// Throws InputError and RunError.
+// Runs the study in request.output, and calls `found` with the results, if there are any. `own`: the estimators that
+// the methods name. Throws InputError and RunError.
 StudyEnd run_study(
     StudyRequest request, const std::map<std::string, OwnEstimator>& own, Crew* crew, const Scene& scene, double scene_seconds,
     const StudyStatus& status,

@@ -1,10 +1,10 @@
 // The journal of a study on disk, so that an interrupted study can be resumed.
 //
-//     study.journal   lines of JSON: what is studied, how it was planned, and then one line for each finished run
+//     study.journal   lines of JSON: the study, its plan, and then one line for each finished run
 //     study.pictures  the pictures of the runs, one after the other, float32
 //
-// Both are appended to, pictures first; an incomplete last line is ignored. There is no fsync, which would take longer than short
-// runs: nothing is lost if the program is killed, but something may be if the machine fails.
+// Both are appended to, pictures first; an incomplete last line is ignored. There is no fsync, which would take longer
+// than short runs: nothing is lost if the program is killed, but something may be if the machine fails.
 #pragma once
 
 #include "apps/output/study/study_data.h"
@@ -21,7 +21,7 @@ public:
     StudyJournal(const StudyJournal&) = delete;
     StudyJournal& operator=(const StudyJournal&) = delete;
 
-    // What was studied, as texts by name, and how it was planned; null for a new journal.
+    // The study, as texts by name, and its plan; null for a new journal.
     nlohmann::ordered_json study, plan;
     // Throws InputError that names the differences, if `study` is not the study of the journal.
     void expect_same(const nlohmann::ordered_json& study) const;

@@ -177,7 +177,8 @@ std::optional<StudyReference> make_reference(const StudyRequest& request, std::u
     begins(made_identity(request, wanted, scene, bounces));
     const Stopwatch watch;
     StudySaving saving(folder, "reference", scene, request);
-    // One that could not be cached is made again for each part of the study, and a run may be under way.
+    // A reference that could not be cached is made again for each part of the study, while the folder may have the
+    // state of a run.
     const bool keeps = saving.has_room();
     if (!request.quiet) fmt::print(stderr, "Making a reference by {}, {} samples a pixel\n", request.reference, wanted);
     const auto run = run_method(method, {wanted}, bounces, study_seed(0, reference_method, 0, 0), scene, pilot,
@@ -194,7 +195,7 @@ std::optional<StudyReference> make_reference(const StudyRequest& request, std::u
         const Json identity = made_identity(request, wanted, scene, bounces);
         try {
             keep(cache_path(*cache, identity), identity, made, run->degrees_of_freedom);
-            // Read back, so that the pictures are rounded as in later studies that read them from the cache.
+            // The pictures are read back, so that they are rounded as in later studies that read them from the cache.
             made = from_folder(cache_path(*cache, identity).string(), scene.film, bounces);
         } catch (const std::runtime_error& e) {
             made.warnings.push_back(fmt::format("the reference is not kept: {}", e.what()));

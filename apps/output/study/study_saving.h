@@ -1,4 +1,4 @@
-// What there is of a study's present run, or of its reference, while that is rendered.
+// The state of a study's present run, or of its reference, while that is rendered.
 #pragma once
 
 #include "apps/output/files/checkpoints.h"
@@ -15,16 +15,17 @@ namespace neumann {
 
 class StudySaving {
 public:
-    // `run`: its number, or "reference".
+    // `run`: the number of the run, or "reference".
     StudySaving(OutputFolder& folder, const nlohmann::ordered_json& run, const Scene& scene, const StudyRequest& request)
         : folder_(folder),
           what_{{"run", run}},
           checkpoints_(folder, {what_, scene.hash}, "the same command with --resume", request.checkpoint, false,
                        [](const std::string&) {}) {}
 
-    // Whether the folder has nothing of another run.
+    // Whether the folder has no state of another run.
     bool has_room() const { return !std::filesystem::exists(folder_.saved()) || is_there(); }
-    // It goes on with what is there of it from before the study was cut off. Refers to this object.
+    // The callbacks of a run, which continues its state from before the study was cut off, if there is one. They refer
+    // to this object.
     Saving saving() { return checkpoints_.saving(is_there() ? std::optional(read_saved_render(folder_.saved())) : std::nullopt); }
 
 private:

@@ -10,7 +10,7 @@ namespace neumann {
 
 namespace {
 
-// Lines of at most 120 characters.
+// The text in lines of at most 120 characters.
 std::string folded(const std::string& text) {
     constexpr std::size_t most = 120;
     std::string out;

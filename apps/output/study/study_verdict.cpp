@@ -10,7 +10,7 @@ namespace neumann {
 
 namespace {
 
-// Two digits, and no exponent.
+// A number with two digits and no exponent.
 std::string times_text(double x) {
     if (!std::isfinite(x)) return "∞";
     const double unit = std::pow(10.0, std::floor(std::log10(std::max(x, 0.01))) - 1.0);
@@ -22,7 +22,7 @@ std::string interval_text(const RatioInterval& times) {
                                      : fmt::format("{} or more", times_text(times.low));
 }
 
-// Nothing is known of the ratio.
+// Whether nothing is known of the ratio.
 bool is_unbounded(const RatioInterval& times) { return times.low == 0.0 && std::isinf(times.high); }
 
 std::string faster_text(const StudyData& data, const SpeedRatio& other) {
