@@ -1,5 +1,5 @@
-// The manual pages of the commands. Name, synopsis and options come from the parser's definitions; the rest is in
-// apps/manual/NAME.txt.
+// The manual pages of the commands: name, synopsis and options from the parser's definitions, the rest from
+// apps/manual.
 #pragma once
 
 #include "apps/manual/manual_page.h"

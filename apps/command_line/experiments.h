@@ -5,8 +5,8 @@
 
 namespace neumann {
 
-// In `neumann`: executes the other program if the command belongs to it and it exists; then this does not return. In
-// the other program: does nothing.
+// In `neumann`: executes the other program, and does not return, if the command belongs to it. In the other program:
+// nothing.
 void go_on_where_experiments_are(char** argv);
 
 }  // namespace neumann

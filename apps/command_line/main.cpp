@@ -55,8 +55,7 @@ const CLI::App& find(const CLI::App& app, const std::string& name) {
         fmt::format("no command is called '{}'; there are {}{}", name, fmt::join(names, ", "), neumann::did_you_mean(name, names)));
 }
 
-// Keeps freed memory for later allocations: pictures come and go, and on virtual machines the first touch of a page
-// takes longer than filling it.
+// Keeps freed memory for new pictures: on virtual machines the first touch of a page takes longer than filling it.
 void keep_memory() {
     constexpr int largest_threshold = 32 << 20;  // glibc takes no larger one
     mallopt(M_MMAP_THRESHOLD, largest_threshold);

@@ -20,8 +20,7 @@ namespace neumann {
 namespace {
 
 constexpr std::array<std::string_view, 3> limits = {"spp", "time", "error"};
-// Options that have no effect on the samples, besides those that do not last. The scene may have moved; its hash shows
-// whether it is the same.
+// Further options that have no effect on the samples. The scene may have moved; its hash shows whether it is the same.
 constexpr std::array<std::string_view, 6> changeable = {"scene", "memory", "files", "paths", "checkpoint", "reference"};
 
 bool is_one_of(const auto& names, const std::string& name) { return std::ranges::find(names, name) != names.end(); }

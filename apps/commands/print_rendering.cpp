@@ -24,8 +24,7 @@ double light(const SeriesReport& report) {
     return report.sum.mean + (report.rest_verdict == RestVerdict::measured ? report.rest.mean : 0.0);
 }
 
-// "Bounces 0 to 6 hold 99.3% of the light, the rest 0.7%; the noise of a pixel of the sum is 0.4%." Empty if this is
-// not known.
+// "Bounces 0 to 6 hold 99.3% of the light, the rest 0.7%; the noise of a pixel of the sum is 0.4%." Empty if not known.
 std::string answer(const BounceSeries& series) {
     const SeriesReport& report = series.report;
     const double all = light(report), error = series.convergence.back().sum_error;

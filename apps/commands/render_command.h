@@ -23,8 +23,7 @@ struct Viewers {
 // Viewers that the user asked for.
 Viewers asked_for(std::vector<Viewer*> all);
 
-// Renders a scene in memory and keeps the pictures in memory. `watch` must not have a judge. Throws InputError and
-// RunError.
+// Renders a scene in memory, and into memory. `watch` must not have a judge. Throws InputError and RunError.
 std::shared_ptr<Rendering> render(const RenderRequest& request, std::shared_ptr<const Scene> scene, const Watch& watch,
                                   Saving saving = {}, Viewers* viewers = nullptr);
 

@@ -20,15 +20,13 @@ public:
     // "http://127.0.0.1:8137/"
     std::string address() const;
 
-    // May be called from any thread and do not wait for browsers. Data are those of explorer_data(); `progress`: an
-    // object.
+    // May be called from any thread, and do not wait. Data are those of explorer_data(); `progress`: an object.
     void tell(nlohmann::ordered_json progress);
     void show(std::string data);
     // Shows the last data.
     void finish(std::string data);
 
-    // Waits until open pages have the last data and, if one `is_expected`, until it has come; but no longer than
-    // `at_most`.
+    // Waits until open pages, or one that `is_expected`, have the last data; but no longer than `at_most`.
     void wait_for_pages(bool is_expected, std::chrono::milliseconds at_most = std::chrono::seconds(5));
 
 private:

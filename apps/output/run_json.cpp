@@ -110,8 +110,7 @@ void add_discretisation(Json& json, const std::optional<DiscretisationReport>& r
                               {"relative", report->relative}};
 }
 
-// The photon maps of the first and the last replicate, and the destinations of the lights' power, estimated by the
-// photons of the pilot.
+// The photon maps of the first and the last replicate, and where the lights' power goes, by the photons of the pilot.
 Json photons_json(const PhotonPilot& photons, const PathRecord& record, std::size_t bounces) {
     const PhotonSettings& settings = photons.settings;
     const std::uint64_t last = record.first_replicate + std::max<std::size_t>(record.replicates, 1) - 1;

@@ -27,7 +27,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// The interval at which messages are looked for. It takes time from the thread that samples, which has the next share
+// The interval at which messages are looked for, which takes time from the thread that samples. It has the next share
 // by then.
 constexpr std::chrono::milliseconds moment(2);
 
@@ -150,8 +150,7 @@ private:
 }  // namespace
 
 int help(Processes& processes) {
-    // Batch systems and terminals send interrupts to all processes; the first one then ends the render, and this
-    // process.
+    // Interrupts may be sent to all processes; the first one then ends the render, and this process.
     ignore_interrupts();
     Helper(processes).run();
     return 0;

@@ -1,5 +1,5 @@
-// The processes of this program that were started together: the first one executes the command line, and the others
-// help it.
+// The processes of this program that were started together: the first one executes the command line, the others help
+// it.
 #pragma once
 
 #include "apps/processes/scene_on_disk.h"
@@ -33,8 +33,7 @@ Processes* launched();
 // the other processes on it.
 int threads_of_process(int threads);
 
-// The processes that render a scene together with this one, each with this number of threads; null if this one was
-// started alone.
+// The processes that render with this one, each with this number of threads; null if this one was started alone.
 std::unique_ptr<Crew> launched_crew(const SceneFile& file, const Scene& scene, int threads);
 
 }  // namespace neumann

@@ -119,8 +119,7 @@ py::array_t<float> flip(const Array& a, const Array& b) {
     return py::array_t<float>({test.height, test.width}, errors.data());
 }
 
-// A PNG at most `height` pixels high; small pictures are enlarged by whole factors, so that pixels stay square and
-// equal.
+// A PNG at most `height` pixels high; small pictures are enlarged by whole factors, so that pixels stay equal.
 py::bytes png(const Array& array, double exposure, int height) {
     Image image = as_image(array);
     const double scale = image.height > height ? static_cast<double>(height) / image.height : height / image.height;

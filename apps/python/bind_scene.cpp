@@ -55,8 +55,7 @@ std::shared_ptr<const MeshFile> mesh_of(const Rows& vertices, const py::array_t<
     return file;
 }
 
-// `text`: the text of which the scene's hash is made. `meshes`: the arguments of mesh_of() by the filename of a shape
-// 'ply'.
+// `text`: the input of the scene's hash. `meshes`: the arguments of mesh_of() by the filename of a shape 'ply'.
 Loaded load_elements(const std::string& name, const py::tuple& root, const std::map<std::string, py::tuple>& meshes,
                      const std::string& text, bool lenient) {
     auto raw = std::make_shared<reader::RawScene>();

@@ -55,8 +55,7 @@ std::shared_ptr<const PatchScene> patch_scene(const LoadedScene& loaded, PatchOp
 py::array_t<float> as_array(const Image& image);
 // The same, or None if the image is empty.
 py::object as_array_or_none(const Image& image);
-// Mean, stderr, discretisation, spread, and (mean, standard error, degrees of freedom) of red, green, blue and all;
-// None for missing parts.
+// Mean, stderr, discretisation, spread, and (mean, standard error, degrees of freedom) of r, g, b and all; or None.
 py::tuple as_tuple(const PixelEstimate& picture, const std::optional<PictureMeans>& means);
 // Takes any numeric array of this shape. Throws InputError.
 Image as_image(const py::array_t<double, py::array::c_style | py::array::forcecast>& array);

@@ -16,8 +16,7 @@ struct ChosenFiles {
     bool white = false;    // sheets and strips have a white background instead of a black one
 };
 
-// The groups "pictures", "tables", "sheets", "strips", "page", which are written by default; and all groups, with
-// "layers".
+// The groups that are written by default: "pictures", "tables", "sheets", "strips", "page"; and all, with "layers".
 const std::vector<std::string>& file_groups();
 const std::vector<std::string>& all_file_groups();
 // The groups that `neumann page` makes: "sheets", "strips", "page".

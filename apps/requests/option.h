@@ -1,5 +1,4 @@
-// The options of a request: one table, from which the command line, its help, Python's keywords and the requests on
-// disk are made.
+// The options of a request: one table for the command line, its help, Python's keywords and the requests on disk.
 #pragma once
 
 #include "apps/requests/form.h"

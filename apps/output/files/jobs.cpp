@@ -18,8 +18,7 @@ void run_jobs(const std::vector<std::function<void()>>& jobs, std::size_t at_onc
                                                                   });
     const auto work = oneapi::tbb::make_filter<std::size_t, void>(oneapi::tbb::filter_mode::parallel, [&](std::size_t i) {
         try {
-            // A job that waits for parallel work of its own must not begin another job meanwhile, because both would
-            // hold their memory.
+            // A job that waits for its own parallel work must not begin another, because both would hold their memory.
             oneapi::tbb::this_task_arena::isolate(jobs[i]);
         } catch (...) {
             thrown[i] = std::current_exception();

@@ -14,8 +14,7 @@ inline std::string json_text(const nlohmann::ordered_json& json, int indent = -1
     return json.dump(indent, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
-// The file whose name json_text() wrote as `name`, relative or not; the name itself, unless exactly one existing file
-// fits.
+// The file whose name json_text() wrote as `name`; the name itself, unless exactly one existing file fits.
 std::string file_named_in_json(const std::string& name);
 
 // Stores a text whose bytes must all be preserved, and restores it.

@@ -11,8 +11,7 @@ namespace neumann {
 // not written into. Negative, with errno, if that fails.
 int open_new_file(const std::filesystem::path& path);
 
-// Writes such a file from these pieces, one after the other, and flushes it to the disk. Returns 0, or the error
-// number.
+// Writes such a file from these pieces and flushes it to the disk. Returns 0, or the error number.
 int write_new_file(const std::filesystem::path& path, std::span<const std::string_view> pieces);
 
 }  // namespace neumann

@@ -12,8 +12,7 @@
 
 namespace neumann {
 
-// Names of the states of an unfinished render, of a finished render (saved_render.h), and of an unfinished run of a
-// study.
+// Files with the state of an unfinished render, of a finished render (saved_render.h), and of a study's unfinished run.
 inline const std::string unfinished_render_file = "render.unfinished", samples_file = "render.samples",
                          unfinished_run_file = "study.unfinished";
 

@@ -30,8 +30,7 @@ public:
     bool has_rest() const;
     std::size_t pictures() const { return bounces() + (has_rest() ? 1 : 0); }
 
-    // The pictures, which are read when they are needed. Throws InputError if they are missing, damaged, or of another
-    // size.
+    // The pictures, read when they are needed. Throws InputError if they are missing, damaged, or of another size.
     ShownSeries series() const;
     // Reads one of these files.
     PixelEstimate picture(const std::string& name) const;

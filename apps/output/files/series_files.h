@@ -32,8 +32,7 @@ void write_layers(OutputFolder& folder, const BounceSeries& series, const Scene&
 // The approximate number of bytes that a render writes if its EXR files do not compress.
 double estimated_bytes(const Film& film, int bounces, bool has_discretisation, const ChosenFiles& files);
 
-// For a full disk: writes series.csv, and those of bounce_000.exr … and rest.exr that fit. Returns the names of the
-// others.
+// For a full disk: writes series.csv, and the bounce_000.exr … and rest.exr that fit. Returns the names of the others.
 std::vector<std::string> write_terms_that_fit(OutputFolder& folder, const BounceSeries& series, const Scene& scene);
 
 // The contents of series.csv and of convergence.csv.

@@ -30,8 +30,7 @@ struct ShownPictures {
 // Packs the pictures for a page, and returns its exposure.
 double pack_series(const ShownSeries& series, PackedSeries& packed);
 
-// Packs the pictures if index.html is chosen, and writes the chosen ones of contact-sheet.png, bounces.gif,
-// strip-terms.png ….
+// Packs the pictures if index.html is chosen, and writes the chosen ones of contact-sheet.png, bounces.gif and strips.
 ShownPictures show_series(OutputFolder& folder, const ShownSeries& series, const ChosenFiles& files, PackedSeries& packed);
 
 }  // namespace neumann

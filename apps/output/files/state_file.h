@@ -34,8 +34,7 @@ void write_state(nlohmann::ordered_json header, std::vector<std::string_view> nu
 // Writes the state of an unfinished render.
 void write_state(OutputFolder& folder, nlohmann::ordered_json header, std::vector<std::string_view> numbers);
 
-// Reads a state file from its beginning. Throws InputError ("out/x/render.unfinished: damaged: …") if it is not
-// complete.
+// Reads a state file in order. Throws InputError ("out/x/render.unfinished: damaged: …") if it is not complete.
 class StateFile {
 public:
     explicit StateFile(const std::filesystem::path& path);

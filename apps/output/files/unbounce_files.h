@@ -1,5 +1,4 @@
-// The files that `neumann unbounce` writes and reads: pictures under separate lights, terms backward and forward, and
-// statements about them.
+// The files that `neumann unbounce` writes and reads: pictures under separate lights, terms backward and forward, JSON.
 #pragma once
 
 #include "apps/output/files/output_folder.h"
@@ -27,8 +26,7 @@ LightFolder read_light_folder(const std::string& folder);
 // The mean and, if the file has them, errors. Throws InputError as read_exr().
 Estimate read_light(const std::string& path);
 
-// Reads the regions: light j of the pictures has region j + 1; 0 stands for none. Throws InputError for values that are
-// not whole.
+// Reads the regions: region j + 1 for light j, 0 for none. Throws InputError for values that are not whole.
 Regions read_regions(const std::string& path);
 
 // Writes light_000.exr …, direct_000.exr … and forward_001.exr ….

@@ -1,5 +1,4 @@
-// The paths of pixels for the page: their rays on the film and from above, their contributions, and the histories of
-// the pixels' means.
+// The paths of pixels for the page: their rays on the film and from above, contributions, and the pixels' histories.
 #pragma once
 
 #include "apps/output/files/recorded_run.h"

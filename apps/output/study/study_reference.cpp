@@ -177,8 +177,7 @@ std::optional<StudyReference> make_reference(const StudyRequest& request, std::u
     begins(made_identity(request, wanted, scene, bounces));
     const Stopwatch watch;
     StudySaving saving(folder, "reference", scene, request);
-    // A reference that could not be cached is made again for each part of the study, while the folder may have the
-    // state of a run.
+    // A reference that could not be cached is made again when a study resumes, while the folder may have a run's state.
     const bool keeps = saving.has_room();
     if (!request.quiet) fmt::print(stderr, "Making a reference by {}, {} samples a pixel\n", request.reference, wanted);
     const auto run = run_method(method, {wanted}, bounces, study_seed(0, reference_method, 0, 0), scene, pilot,

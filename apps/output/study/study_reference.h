@@ -22,8 +22,7 @@ struct StudyReference {
     double seconds = 0.0;  // time to render it
 };
 
-// The given answer or pictures; nothing if a method is to render the reference. Throws InputError if it is none of
-// these, or if the size differs.
+// The given answer or pictures; nothing if a method is to render them. Throws InputError for others, and other sizes.
 std::optional<StudyReference> given_reference(const StudyRequest& request, const Film& film, int bounces);
 // Renders the reference with the given method, or takes it from the cache. Returns nothing if interrupted. Calls
 // begins(identity) before it is rendered; its unfinished state is in the folder meanwhile. `crew`: processes that

@@ -9,8 +9,7 @@ namespace neumann {
 // Throws InputError if the pictures of all runs, which are kept until the end, do not fit into the folder.
 void expect_disk_space(const StudyData& data, const std::filesystem::path& folder);
 
-// Goes on until everything is done or it is interrupted. The state of a long run is in the folder while it is under
-// way.
+// Goes on until all is done or it is interrupted. The state of a long unfinished run is in the folder.
 void run_all(StudyData& data, StudyJournal& journal, OutputFolder& folder, const StudyStatus& status);
 
 }  // namespace neumann

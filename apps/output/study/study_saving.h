@@ -24,8 +24,7 @@ public:
 
     // Whether the folder has no state of another run.
     bool has_room() const { return !std::filesystem::exists(folder_.saved()) || is_there(); }
-    // The callbacks of a run, which continues its state from before the study was cut off, if there is one. They refer
-    // to this object.
+    // The callbacks of a run, which continues its state if there is one. They refer to this object.
     Saving saving() { return checkpoints_.saving(is_there() ? std::optional(read_saved_render(folder_.saved())) : std::nullopt); }
 
 private:

@@ -19,8 +19,7 @@ namespace {
 
 // A mistake must be likelier than none by this, as −2 log of the likelihood.
 constexpr double strong_evidence = 40.0;
-// Two pictures of one renderer are further apart than their noise if their difference has a smaller probability than
-// this.
+// Two pictures of one renderer differ by more than their noise if their difference has a smaller probability.
 constexpr double agreement_of_seeds = 0.05;
 constexpr std::size_t places_a_term = 3;
 constexpr std::uint64_t most_replayed = 64;  // samples of a pixel, from which a path is chosen
@@ -151,8 +150,7 @@ private:
         if (misfit < close && misfit_of_means(pictures, result_.counting, sums) > clearly * misfit + close) result_.told = likely;
     }
 
-    // Finds the number by which our variance is multiplied, from the picture with the smallest one, because mistakes
-    // only increase it.
+    // Finds the factor from our variance to theirs, from the picture with the smallest one: mistakes only increase it.
     void judge_noise(const std::vector<DepthPicture>& pictures, const BounceSeries& ours) {
         for (const DepthPicture& p : pictures) {
             if (p.variance) continue;

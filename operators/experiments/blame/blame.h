@@ -68,8 +68,7 @@ struct Blame {
 
 const char* name_of(Blame::Verdict verdict);
 
-// The probability that the pictures of a right renderer are judged to be further apart from ours than chance explains,
-// over all terms together.
+// The probability that a right renderer's pictures seem further apart from ours than chance explains, over all terms.
 constexpr double false_alarms = 0.005;
 
 // Judges `pictures`, which have one size; the scene's film gets that size. Throws InputError as terms_of() does, if a

@@ -99,8 +99,7 @@ struct PooledNoise {
     }
 };
 
-// The smallest of three probabilities: for the mean over all blocks, the block that differs most, and the sum of
-// squares.
+// The smallest of three probabilities: by the mean over all blocks, by the largest difference, by the sum of squares.
 double p_of(const BlockDifferences& differences, int c) {
     double sum = 0.0, variance = 0.0, squares = 0.0, most = 1.0;
     for (const BlockDifference& b : differences.blocks) {

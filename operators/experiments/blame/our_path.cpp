@@ -15,8 +15,7 @@ PathVertex vertex_of(const Scene& scene, const PathStep& step, const Vec3& camer
     return vertex;
 }
 
-// All paths that a sample tried, up to the last of these bounces. Each ends at a light sample or at a light that it
-// hit.
+// All paths that a sample tried, up to the last of these bounces: each ends at a light sample or at a light.
 std::vector<OurPath> paths_of(const Scene& scene, const Replay& replay, std::uint64_t sample, const BounceRange& bounces) {
     std::vector<OurPath> paths;
     OurPath path;

@@ -51,8 +51,7 @@ struct WrongTerms {
     std::vector<PictureNoise> terms;  // for each of the ranges
 };
 
-// Samples the pictures of all mistakes in these bounces. Roulette and limits begin with the first of them. Throws
-// Stopped.
+// Samples the pictures of all mistakes. Roulette and limits begin with the first bounce of `ranges`. Throws Stopped.
 std::vector<WrongTerms> wrong_terms(const Scene& scene, const std::vector<BounceRange>& ranges, int samples, std::uint64_t seed,
                                     const Watch& watch = {});
 

@@ -119,8 +119,7 @@ private:
     bool are_sums_;
 };
 
-// Weighted least squares in which outliers weigh less, starting from the ratio of the sums. `pixels`: the pixels that
-// count.
+// Weighted least squares in which outliers weigh less, from the ratio of the sums on. `pixels`: those that count.
 double fitted_factor(const PictureNoise& theirs, const PictureNoise& ours, const std::vector<std::size_t>& pixels) {
     double sum_theirs = 0.0, sum_ours = 0.0;
     for (const std::size_t i : pixels) {

@@ -1,5 +1,4 @@
-// Mistakes that are made with finished pictures: flipped, shifted, blurred, encoded, scaled. These functions make them
-// with the right pictures.
+// The pictures that mistakes make of finished, right pictures: flipped, shifted, blurred, encoded, scaled.
 #pragma once
 
 #include "operators/experiments/blame/difference_test.h"

@@ -1,5 +1,4 @@
-// A verdict in three sentences: which bounce differs first and by how much, what mistake that looks like, and where it
-// is.
+// A verdict in three sentences: the first bounce that differs and by how much, its likely mistake, and its place.
 #pragma once
 
 #include "core/scene/scene.h"

@@ -12,8 +12,7 @@
 
 namespace neumann {
 
-// For each kind, a wrong picture of each of these ranges of bounces. Empty for a scene that our own bidirectional
-// method refuses.
+// For each kind, a wrong picture of each of these ranges. Empty for a scene that our bidirectional method refuses.
 std::vector<WrongPictures> without_techniques(const Scene& scene, const std::vector<BounceRange>& ranges, std::uint64_t samples,
                                               std::uint64_t seed, const Watch& watch = {});
 

@@ -16,8 +16,7 @@ struct WorstPlace {
     OurPath path;                             // a path through this pixel
 };
 
-// At most `most` blocks of block_differences(), those with the largest |z|, largest first, no two adjacent. Their paths
-// are not set.
+// The blocks of block_differences() with the largest |z|, `most` at most, none beside another. Paths are not set.
 std::vector<WorstPlace> worst_places(const PictureNoise& theirs, const PictureNoise& ours, std::size_t most);
 
 }  // namespace neumann

@@ -70,8 +70,7 @@ void add_walks(Cases& cases) {
                                                terms(column, bounces), 1, accuracy);
                              }});
         }
-    // By superposition: with one wall lit instead of the ceiling, g_i at the floor's centre is (1 − g_floor −
-    // g_ceiling)/4.
+    // By superposition: with one wall lit, g_i at the floor's centre is (1 − g_floor − g_ceiling)/4.
     cases.push_back({"cube/wall-lit/floor-centre/mis", "superposition of the above", [](Figures& figures, std::uint64_t seed) {
                          const Scene scene = cube_lit_by(right);
                          std::vector<double> exact;
@@ -139,8 +138,7 @@ double gathered(const Cube& cube, const Vector& x, const Parallelogram& face) {
     return sum;
 }
 
-// Piecewise constant radiance on n × n patches a face has discretisation errors of order h² ln h from the corners; the
-// results for each n are also known.
+// Piecewise constant radiance on n × n patches a face has known errors, of order h² ln h from the corners.
 void add_patches(Cases& cases) {
     struct Row {
         int n;

@@ -18,8 +18,7 @@ struct Receiver {
     Vec3 point, normal;
 };
 
-// Adds cases for all techniques that sample lights, and for the others if the light is large enough to be found by
-// chance.
+// Adds cases for all techniques that sample lights, and for the others if the light is easily found by chance.
 void add_point(Cases& cases, const std::string& name, const Shape& light, const Receiver& receiver, double F) {
     for (const Technique technique :
          {Technique::mis, Technique::light, Technique::bsdf, Technique::pointwise, Technique::surfaces}) {
@@ -51,8 +50,7 @@ Parallelogram flat(const TriangleMesh& mesh) {
     return turned ? Parallelogram{corner, b, a} : Parallelogram{corner, a, b};
 }
 
-// F is the mean over the receiver. If the receiver touches the light, light sampling has infinite variance (∫ G²
-// diverges).
+// F is the mean over the receiver. If that touches the light, light sampling has infinite variance (∫ G² diverges).
 struct Pair {
     const char* name;
     TriangleMesh receiver, light;

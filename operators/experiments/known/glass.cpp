@@ -30,8 +30,8 @@ void fresnel(Figures& figures, std::uint64_t) {
     for (const auto& [degrees, R] : reflected)
         figures.near(fmt::format("R at {:g} degrees", degrees), conductor_fresnel(std::cos(degrees * pi / 180.0), n, 0.0), R,
                      1e-12);
-    // The integration variable is √μ, because F has an edge at grazing angles; inside, F has a square-root edge at the
-    // critical angle.
+    // Integrals are over √μ, because F has an edge at grazing angles; inside, it has a root's edge at the critical
+    // angle.
     figures.near("cosine mean from outside",
                  integrate_smooth(0.0, 1.0, [](double s) { return conductor_fresnel(s * s, n, 0.0) * 4.0 * s * s * s; }),
                  0.0917779593423512, 1e-12);
@@ -139,8 +139,7 @@ void glass_in_furnace(Figures& figures, std::uint64_t seed, Technique technique)
     const Scene scene = maker.make();
     const Estimates found =
         probe(scene, seen(scene, {-0.2, -1.2, 0.4}, {0.5, 1.3, -0.4}), technique, {.samples = 128, .bounces = 80, .seed = seed});
-    // Each reflection by the wall takes 0.5, and at least every third bounce is one, except for trapped light that the
-    // camera does not see.
+    // Each wall reflection takes 0.5, and at least every third bounce is one, except in trapped light that is not seen.
     figures.sampled("sum of K^i Le, i <= 80", found.reflected, 1.0, std::pow(0.5, 26));
 }
 

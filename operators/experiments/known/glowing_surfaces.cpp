@@ -96,8 +96,7 @@ double over_sheet(const Sheet& sheet, const Vec3& p, const F& f) {
         0.0, 1.0);
 }
 
-// K Le and K² Le at a point of the floor. Walks from the camera find neither the sun nor the lamp through the sheet or
-// in it.
+// K Le and K² Le at a point of the floor. Walks from the camera do not find sun and lamp through the sheet or in it.
 enum class Finds { sky, sky_and_seen_lamps, all };
 std::array<double, 2> exact(const Sheet& sheet, const Vec3& p, Finds finds) {
     const double F = over_sheet(sheet, p, [](double) { return 1.0; });

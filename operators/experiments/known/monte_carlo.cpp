@@ -24,8 +24,7 @@ ProbeSettings independent(std::uint32_t samples, int bounces, std::uint64_t seed
 }
 StartPicker middle_of_floor(const Scene& scene) { return at(scene, {0.5, 0.5, 0}, {0, 0, 1}); }
 
-// A walk either finds the light or does not, so the variance is g (1 − g); for uniform directions and for points on the
-// light it is from quadrature.
+// A walk finds the light or not, so its variance is g (1 − g); other variances are from quadrature.
 void variances(Figures& figures, std::uint64_t seed) {
     const Scene scene = cube();
     const Estimates by_walk = probe(scene, middle_of_floor(scene), Technique::bsdf, independent(65536, 2, seed));
@@ -64,7 +63,7 @@ void says_infinite(Figures& figures, const std::string& quantity, const Scene& s
     figures.at_least(quantity + ": infinite variance in runs of 6", said, 3.0);
 }
 
-// Both points are random on squares that share an edge: P(X > x) = 0.0217927 x^−1.5, from x = 10 on to 2%. Counts are
+// Both points are random on squares that share an edge: P(X > x) = 0.0217927 x^−1.5, to 2% from x = 10 on. Counts are
 // Poisson numbers.
 void shared_edge(Figures& figures, std::uint64_t seed) {
     SceneMaker maker;
@@ -136,8 +135,7 @@ void touching_light(Figures& figures, std::uint64_t seed) {
                  z_limit * error * std::sqrt(1.0 + static_cast<double>(mixed.samples) / 4e6));
 }
 
-// ⟨(mean of N − truth)²⟩ of 64 replicates falls like 1/N: slope −1 of its logarithm, with a standard deviation of
-// 0.030.
+// ⟨(mean of N − truth)²⟩ of 64 replicates falls like 1/N: its logarithm has the slope −1 with a deviation of 0.030.
 void slope(Figures& figures, std::uint64_t seed) {
     const Scene scene = cube();
     double x1 = 0.0, y1 = 0.0, xx = 0.0, xy = 0.0;

@@ -54,8 +54,7 @@ void cavity(Figures& figures, std::uint64_t seed, double f, Technique technique)
     figures.sampled("1 - apparent emissivity", found.reflected, 1.0 - epsilon / (epsilon + f * (1.0 - epsilon)));
 }
 
-// Walls of size S seen at the distance d from the edge: the missing part of the sky is d/S times (1 + π/4)/π, an upper
-// limit for every term.
+// Walls of size S, seen d from the edge, lack d/S times (1 + π/4)/π of the sky, which limits the error of every term.
 constexpr double size = 1e4, missing = 0.5684 / size;
 
 void wedge(Figures& figures, std::uint64_t seed, double degrees, Technique technique) {

@@ -288,8 +288,7 @@ Estimates sharp_probe(const Scene& scene, const StartPicker& start, Technique te
         double largest = settings.rest_probability > 0.0 ? excess(found.rest) : 0.0;
         for (std::size_t i = 1; i < found.terms.size(); ++i) largest = std::fmax(largest, excess(found.terms[i]));
         if (largest <= 1.0 || samples >= most) return found;
-        // The number grows as the squared error requires, by an eighth to all of the present one, in whole packets of
-        // walks.
+        // The number grows as the squared error requires, by an eighth to all of the present one, in whole packets.
         const double more = samples * std::clamp(largest * largest - 1.0, 0.125, 1.0);
         samples = std::min(samples + together * static_cast<std::uint32_t>(std::ceil(more / together)), most);
     }

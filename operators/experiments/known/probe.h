@@ -43,8 +43,7 @@ inline constexpr Technique specular_techniques[] = {Technique::mis, Technique::b
 std::string name(Technique technique);
 // The technique in one word, for the names of cases.
 std::string short_name(Technique technique);
-// Whether the technique samples lights. The others find a light by chance, with its form factor as the probability, and
-// need many more samples.
+// Whether the technique samples lights. The others find a light by chance, with its form factor as the probability.
 inline bool looks_for_lights(Technique technique) { return technique == Technique::mis || technique == Technique::light; }
 
 // The way walks go on: in directions sampled from the material, to points on all surfaces, or through mirrors alone.

@@ -61,8 +61,7 @@ void add_furnace(Cases& cases, double rho, int terms, double change, double naiv
                      }});
 }
 
-// The number of terms after which a loop ends that runs until the sum no longer changes, on the cube of 16 × 16 patches
-// a face.
+// The number of terms until the sum no longer changes, on the cube of 16 × 16 patches a face.
 void stagnation_of_cube(Figures& figures, std::uint64_t) {
     const Cube cube = symmetric_cube(16);
     const auto of = [&](double rho, int most) { return stagnation<float>(cube.channel(rho), cube.ceiling(), most).value_or(0); };

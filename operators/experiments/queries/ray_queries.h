@@ -1,5 +1,4 @@
-// tr(x, ω), V(x, y) and light samples for many points at once, on all processors, for estimators outside of the
-// program.
+// tr(x, ω), V(x, y) and light samples for many points at once, on all processors, for estimators outside the program.
 #pragma once
 
 #include "core/emitter/light_sampler.h"
@@ -25,8 +24,7 @@ struct SeenPoint {
 std::vector<SeenPoint> see(const Scene& scene, std::span<const Ray> rays);
 std::vector<SeenPoint> see(const Scene& scene, std::span<const SurfacePoint> from, std::span<const Vec3> directions);
 
-// The same for rays of the camera, which see neither lights nor surroundings if the scene hides them
-// (Scene::hide_emitters).
+// The same for rays of the camera, which do not see lights and surroundings if the scene hides them (hide_emitters).
 std::vector<SeenPoint> see_from_camera(const Scene& scene, std::span<const Ray> rays);
 
 // V(x, y) of each pair. A point in space is given at infinity, without a normal but with its position.

@@ -1,5 +1,4 @@
-// A method from outside of the program: an estimator of the terms along camera rays, K^i Le(ray) = E[sample of bounce
-// i].
+// A method from outside the program: an estimator of the terms along camera rays, K^i Le(ray) = E[sample of bounce i].
 #pragma once
 
 #include "core/scene/camera_sample.h"

@@ -7,8 +7,7 @@
 
 namespace neumann {
 
-// The seconds of a run, in ascending order, or samples per pixel. If both are empty, seconds are chosen that suit all
-// methods.
+// The seconds of a run, ascending, or samples per pixel. If both are empty, seconds are chosen that suit all methods.
 struct StudyBudgets {
     std::vector<double> seconds = {};
     std::vector<std::uint64_t> samples = {};
@@ -25,8 +24,7 @@ struct StudyPlan {
     double repeat_seconds = 0.0, reference_seconds = 0.0;
 };
 
-// Measures the speed of each method by short runs; these also show what a method refuses. Returns nothing if it was
-// stopped.
+// Measures the speed of each method, and whether it refuses, by short runs. Returns nothing if it was stopped.
 std::optional<StudyPlan> plan_study(const StudyBudgets& wanted, const std::vector<StudyMethod>& methods, int bounces,
                                     std::uint64_t seed, const Scene& scene, const Pilot& pilot, const Watch& watch);
 

@@ -47,8 +47,7 @@ struct StudyPoint {
     double mean_rays(std::size_t picture) const;
     double largest_memory() const;
     std::optional<double> mean_discretisation(std::size_t picture) const;
-    // Whether the variance is infinite according to more than half of the runs that can tell; for the sum: of any
-    // bounce.
+    // Whether the variance is infinite by more than half of the runs that can tell; for the sum: of any bounce.
     bool infinite_variance(std::size_t picture) const;
 };
 

@@ -11,8 +11,7 @@ namespace neumann {
 struct TermAgreement {
     MeanWithError forward, difference;  // means over pixels and channels; difference: backward less forward
     double discretisation = 0.0;        // of the backward mean, as in Unbounced
-    // √(Σ (b − f)² / Σ f²) over regions, weighted with their sizes, and channels; and the value of this that noise
-    // alone would give.
+    // √(Σ (b − f)² / Σ f²) over regions, weighted with their sizes, and channels; and its value from noise alone.
     double relative_difference = 0.0, by_noise = 0.0;
     // The part of the difference due to light by way of surfaces that are not seen; known for rendered scenes only.
     std::optional<MeanWithError> by_way_of_unseen = {};

@@ -63,8 +63,7 @@ struct Writer {
         });
     }
 
-    // The values among those that cannot be negative that are negative, beyond errors and beyond the least that is
-    // worth mentioning.
+    // The values that should not be negative but are, beyond errors and beyond the least that is worth mentioning.
     struct Worst {
         double value = 0.0, error = 0.0;
         Eigen::Index row = 0, column = 0;

@@ -51,8 +51,7 @@ public:
         sums_[i] += value;
         squares_[i] += value * value;
     }
-    // The estimate from `count` parts, of entries first … of a picture of this size. With one part the error is not a
-    // number.
+    // The estimate from `count` parts, of entries first … of a picture of this size. One part has no finite error.
     Estimate estimate(std::size_t first, int width, int height, double count) const {
         Estimate result{Image(width, height), Image(width, height)};
         result.degrees_of_freedom = count - 1.0;

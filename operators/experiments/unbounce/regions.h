@@ -44,8 +44,7 @@ struct RegionParts {
     std::vector<Part> parts;
 };
 
-// Means over regions, a column for each light. In the variance, errors of pixels are independent, or correlated if the
-// picture says so.
+// Means over regions, a column for each light. Their variance takes errors of pixels as the picture says.
 struct RegionMeans {
     Eigen::MatrixXd mean[3], variance[3];  // variance: empty if the errors of any picture are not known
 };

@@ -44,8 +44,8 @@ public:
         return result;
     }
 
-    // Gives T and the direct light errors with the covariance of the parts' means: with normal ξ, T + Σ_p ξ_p (T_p − T)
-    // / √(P (P − 1)).
+    // Adds errors with the covariance of the parts' means to T and the direct light: Σ_p ξ_p (T_p − T) / √(P (P − 1)),
+    // normal ξ.
     void disturb(ChannelPictures& pictures) {
         const auto P = static_cast<double>(pictures.parts.size());
         const MatrixXd T = pictures.T, direct = pictures.direct;

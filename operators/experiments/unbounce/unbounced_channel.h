@@ -10,14 +10,12 @@
 
 namespace neumann {
 
-// Values of regions (rows) under lights (columns), and the variances of their errors, which are empty if they are not
-// known.
+// Values of regions (rows) under lights (columns), and the variances of their errors, which are empty if not known.
 struct ChannelPictures {
     Eigen::MatrixXd T, T_variance;
     Eigen::MatrixXd direct, direct_variance;    // empty: T¹ follows from T⁻¹
     Eigen::VectorXd picture, picture_variance;  // the picture to unbounce; empty: that of all lights together
-    // Independent parts, whose means are T and the direct light, if errors are correlated. Empty: errors are
-    // independent.
+    // Independent parts with means T and the direct light, if errors are correlated. Empty: errors are independent.
     struct Part {
         Eigen::MatrixXd T;
         Eigen::VectorXd direct;

@@ -20,8 +20,7 @@ double bytes_of_fields(const FieldSettings& settings, const FieldSizes& sizes) {
 
 double bytes_of_pictures(const FieldSettings& settings, const Film& film) {
     const double quantities = settings.bounces + 2.0, pixels = static_cast<double>(film.crop_width) * film.crop_height;
-    // These are floats for all replicates, the difference to coarser patches and the mean, and doubles for one
-    // Estimate.
+    // Floats for all replicates, the difference to coarser patches and the mean, and doubles for one Estimate.
     return pixels * (3.0 * sizeof(float) * quantities * (settings.replicates + 2.0) + 9.0 * sizeof(double));
 }
 

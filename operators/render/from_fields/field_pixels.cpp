@@ -8,8 +8,7 @@ namespace {
 
 // These streams differ from those of the series.
 constexpr std::uint64_t picture_stream = 0x706963747572ull, gather_stream = 0x676174686572ull;
-// The samples of a group of pixels that are read at once, and the most that a single pixel reads at once, as it may
-// have any number.
+// The samples of a group of pixels that are read at once, and the most of a single pixel, which may have any number.
 constexpr std::uint32_t samples_at_once = 64, most_at_once = 4096;
 
 }  // namespace

@@ -9,8 +9,7 @@ namespace neumann {
 
 namespace {
 
-// The readings of one field for one pixel. They mostly share their patches, so each patch is read once, with the sum of
-// its weights.
+// The readings of one field for one pixel. Patches that several share are read once, with the sum of the weights.
 class Readings {
 public:
     void add(const PatchSpace::Reading& reading, double weight, double of_difference) {

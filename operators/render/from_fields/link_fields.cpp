@@ -8,8 +8,7 @@ namespace neumann {
 
 namespace {
 
-// The difference between finer and coarser patches in the light of a bounce that comes by links, relative to that
-// light.
+// The difference between finer and coarser patches in a bounce's light by links, relative to that light.
 struct Blur {
     double with_noise = 0.0, without = 0.0;
 };

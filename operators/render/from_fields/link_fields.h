@@ -1,5 +1,4 @@
-// The fields of one replicate, divided for reading: light that comes by links is in points or in a raster instead of
-// the fields.
+// The fields of one replicate, divided for reading: light by links is in points or in a raster instead of the fields.
 #pragma once
 
 #include "operators/fields/matrix/traced_series.h"

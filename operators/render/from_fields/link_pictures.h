@@ -14,8 +14,8 @@
 
 namespace neumann {
 
-// Whether the ends of such paths can be joined to the camera: not if the camera looks through lights, nor if it is a
-// single ray.
+// Whether the ends of such paths can be joined to the camera: not if it looks through lights, nor if it is a single
+// ray.
 bool shows_links(const Scene& scene);
 
 struct LinkPictures {
@@ -24,8 +24,7 @@ struct LinkPictures {
     std::uint64_t rays = 0;
 };
 
-// `rays`: the approximate number of rays. Throws Stopped if `watch` stops it. If the rows are shared, all processes get
-// the whole result.
+// `rays`: their approximate number. Throws Stopped if `watch` stops it. With shared rows, all processes get the result.
 LinkPictures picture_links(const Scene& scene, const RowShare& rows, double rays, std::uint64_t seed, int bounces,
                            const Watch& watch = {});
 

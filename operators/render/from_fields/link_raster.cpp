@@ -47,8 +47,7 @@ LinkRaster::End::End(std::uint32_t chart, bool front, const Vec2& st, std::uint3
 
 LinkRaster::LinkRaster(const Patches& patches, std::vector<End> ends, int bounces)
     : fine_{3 * static_cast<std::size_t>(std::max(bounces, 1))}, coarse_(fine_) {
-    // The key contains everything about an end, so that the order of equal ends does not matter and the sums are
-    // deterministic.
+    // The key is everything about an end, so that the order of equal ends does not matter and sums are deterministic.
     oneapi::tbb::parallel_sort(ends.begin(), ends.end(), [](const End& a, const End& b) {
         return std::tie(a.side, a.place, a.bounce, a.power) < std::tie(b.side, b.place, b.bounce, b.power);
     });

@@ -20,8 +20,8 @@ public:
     // Adds bounce 1 at points that pixels see, by one light sample each and, where directions from the BSDF are used as
     // well, by one of these. Returns the number of rays.
     std::uint64_t find(std::span<PixelRay> rays) const;
-    // Adds direct light by light samples at links that do not only have the directions of mirrors and glass; the next
-    // ray may meet the same light.
+    // Adds direct light by light samples at links with directions other than those of mirrors and glass; the next ray
+    // may hit it too.
     std::uint64_t find_at_links(std::span<PixelRay* const> rays) const;
     // The bounce of the light that a ray finds at its last vertex.
     std::size_t bounce_of(const PixelRay& l) const { return std::min<std::size_t>(l.links + 1, last_bounce_); }

@@ -39,11 +39,9 @@ struct PixelRay {
     bool diffuse;
     Rgb weight;
     double pdf;
-    // The refractive indices in the directions wo and wi: `through` and `weight` are for basic radiance L/n², while
-    // lights have radiance.
+    // The refractive indices in the directions wo and wi: `through` and `weight` are for basic radiance L/n².
     double index = 1.0, index_beyond = 1.0;
-    // The throughput of a gather ray, and the number of links (operators/fields/matrix/links.h) from which it went on,
-    // such as mirrors.
+    // The throughput of a gather ray, and the number of links (operators/fields/matrix/links.h) from which it went on.
     Rgb through;
     std::uint32_t links = 0;
     bool goes_on;

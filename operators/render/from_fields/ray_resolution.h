@@ -28,8 +28,7 @@ struct RayCounts {
 class RayResolution {
 public:
     RayResolution() = default;
-    // `replicates`: the finer fields are used. Quantity i + 1 is R T of quantity i; the rest is R T of bounce N plus
-    // itself.
+    // Uses the finer fields. Quantity i + 1 is R T of quantity i; the rest is R T of bounce N plus itself.
     RayResolution(const std::vector<TracedSeries>& replicates, const RayCounts& counts);
 
     // The least standard error of a quantity, relative to its value: in a pixel, and of the mean over all pixels.

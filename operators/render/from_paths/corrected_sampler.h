@@ -38,8 +38,7 @@ private:
 
 class CorrectedSampler : public PathSampler {
 public:
-    // The rays for the points of a replicate, roughly, as a part of those for its pixels; in small pictures the part is
-    // larger.
+    // The rays for the points of a replicate, as a rough part of those for its pixels; it is larger in small pictures.
     static constexpr double share_of_points = 0.1;
 
     CorrectedSampler(const Scene& scene, const SamplingSettings& settings, std::shared_ptr<const Approximation> approximation);

@@ -48,8 +48,7 @@ public:
     // Must be called after the last ray: turns sums into means over `paths` paths.
     void finish(std::uint32_t paths);
 
-    // Entry 0 is the energy that started, and the part of it that left without hitting a surface; entries 1 … are
-    // bounces.
+    // Entry 0 is the energy that started, and the part that left without hitting a surface; entries 1 … are bounces.
     const std::vector<EnergyShares>& shares() const { return entries_; }
 
 private:

@@ -22,8 +22,7 @@ inline std::uint32_t pixel_at(const Film& film, const Vec2& position) {
     return static_cast<std::uint32_t>(y * film.crop_width + x);
 }
 
-// Adds the shares of a contribution: each pixel gets it times its filter. A contribution that is not finite is recorded
-// and left out.
+// Adds a contribution to each pixel, times its filter. If it is not finite, it is recorded and left out.
 inline void spread(const Film& film, const Vec2& position, std::size_t quantity, const Rgb& value, const SampleName& name,
                    std::vector<PixelShare>& shares, Tally& tally) {
     const SamplePlace place{pixel_at(film, position), name};

@@ -1,4 +1,4 @@
-// Work in pieces that are made in any order, on all threads, and added in a fixed one: the same bits on any number of
+// Makes pieces of work in any order, on all threads, and adds them in a fixed one: the same bits on any number of
 // threads.
 #pragma once
 

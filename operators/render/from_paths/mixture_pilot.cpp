@@ -56,8 +56,7 @@ double number_of(const std::vector<double>& all) {
     return squares > 0.0 ? sum * sum / squares : 0.0;
 }
 
-// For each method and block, the variance of a sample of a bounce, summed over pixels and channels; and the squared
-// size of the bounce.
+// The variance of a sample for each method and block, summed over pixels and channels; and the bounce's squared size.
 struct BounceVariances {
     std::vector<std::vector<double>> of;
     double square = 0.0;

@@ -10,8 +10,7 @@
 
 namespace neumann {
 
-// A method that may be a part of the mixture: its name, its settings, and the time of its ray relative to a ray of the
-// walk.
+// A method that may be a part of the mixture, and the time of its ray relative to a ray of the walk.
 struct MixtureCandidate {
     std::string name;
     SamplingSettings settings;

@@ -11,8 +11,7 @@ namespace neumann {
 // The estimates after some replicates.
 class MixtureTrial {
 public:
-    // Counts rays. `size`: samples of a pixel in a replicate. Keeps a reference to the scene. Throws Stopped if `watch`
-    // stops it.
+    // Counts rays. `size`: samples of a pixel in a replicate. Keeps a reference to the scene. Throws Stopped.
     MixtureTrial(const Scene& view, const SamplingSettings& settings, std::uint32_t size, const Watch& watch);
 
     // Samples more replicates. Throws Stopped if `watch` stops it.

@@ -34,8 +34,7 @@ enum class Remedy {
     more_bounces  // the rest is sampled from the camera alone, so a larger N helps
 };
 
-// Describes a method that reads light near a point, within two radii; the difference estimates its bias
-// (picture_bias.h).
+// Describes a method that reads light within two radii, whose difference estimates its bias (picture_bias.h).
 struct TwoRadii {
     double part_of_bias;  // the difference as a part of the bias
     bool errs_both_ways;  // the bias has both signs, so that the difference is 0 in places where the bias is not
@@ -58,8 +57,7 @@ public:
     // Whether something is prepared before the first sample, and the rays cast for it.
     virtual bool is_prepared() const { return false; }
     virtual std::uint64_t rays() const { return 0; }
-    // The time of a sample relative to that of a plain walk. `rays_of_walk`: the rays that a walk casts for each
-    // bounce.
+    // The time of a sample relative to a plain walk, which casts `rays_of_walk` rays for each bounce.
     virtual double walks_worth(int bounces, std::span<const double> rays_of_walk) const = 0;
     // Whether its first picture is given up if it is not finished in time; that of the walk is waited for.
     virtual bool first_may_be_late() const { return true; }
@@ -94,8 +92,8 @@ public:
     // Whether a walk goes on until its roulette ends it: its cost in a furnace is then known.
     virtual bool ends_by_roulette() const { return false; }
 
-    // Why its paths are not checked, why they have no balance of energy, and why a pixel has no history, in words; ""
-    // if they are, and have one.
+    // Why its paths are not checked, have no balance of energy, or a pixel no history, in words; "" if there is no
+    // reason.
     virtual std::string why_no_checkup() const { return ""; }
     virtual std::string why_no_balance() const { return ""; }
     virtual std::string why_no_history() const { return ""; }
@@ -105,8 +103,7 @@ public:
     virtual std::optional<std::vector<Remedy>> remedies(const Scene&, bool /*of_rest*/) const { return std::nullopt; }
 
 protected:
-    // A warning about light from lights without extent that is not found where there are mirrors; null if there is
-    // nothing to warn of.
+    // Warns of light from lights without extent that is not found where there are mirrors; null if there is none.
     static constexpr const char* unfound_from_both_ends =
         "what is seen in a mirror of a light without extent is not found from either end and is missing";
     virtual const char* unfound_in_mirrors() const;

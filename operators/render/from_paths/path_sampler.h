@@ -28,8 +28,7 @@ public:
     virtual ~PathsToInspect() = default;
     virtual std::uint32_t groups() const = 0;  // in a replicate
     virtual Group group(std::uint32_t number) const = 0;
-    // Whether all of them belong to replicate 0, because making the data that its paths share takes as long as a
-    // picture.
+    // Whether all of them are of replicate 0, because the data that its paths share take as long as a picture.
     virtual bool are_of_first_replicate() const { return false; }
     virtual void retrace(std::uint64_t replicate, const Group& group, PathObserver& observer) const = 0;
 };
@@ -64,7 +63,7 @@ public:
     virtual void retrace_read(std::uint64_t replicate, std::uint32_t path, PathObserver& observer) const;
     virtual std::unique_ptr<const PathsToInspect> to_inspect() const;
 
-    // For several methods together: the method that made a sample, and the sample's name there. A method alone has no
+    // For several methods together: the one that made a sample, and the sample's name there. A single method has no
     // parts.
     struct OfPart {
         const PictureSampler& sampler;

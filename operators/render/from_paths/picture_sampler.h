@@ -41,8 +41,8 @@ public:
 
     // The same node in shares: of pixels, about as many as `pieces`, or of whole pictures.
     std::vector<Share> shares(std::uint64_t first, std::uint64_t count, std::uint32_t pieces) const;
-    // Samples one share. `tally` holds earlier replicates, so that samples too small for it are not kept. Returns
-    // nothing if `watch` stopped it.
+    // Samples one share, without keeping samples too small for `tally`, which holds earlier replicates. Nothing if
+    // stopped.
     std::optional<SampledShare> sample(const Share& share, const Tally& tally, const Watch& watch = {}) const;
     // The node, joined from shares; `next` is called for each of them in turn.
     std::optional<MomentsNode> join(std::uint64_t first, std::uint64_t count, std::uint32_t pieces, Tally& tally,
@@ -58,8 +58,7 @@ private:
     template <class Sample>
     std::optional<MomentsNode> join_pictures(std::uint64_t first, std::uint64_t count, Tally& tally, const Watch& watch,
                                              std::vector<double> memory, const Sample& sample) const;
-    // Samples pixels of replicates into `data` and `ranges`, which are for these pixels. Returns false if it was
-    // stopped.
+    // Samples pixels of replicates into `data` and `ranges`, which hold these pixels only. False if it was stopped.
     bool sample_pixels(const Share& share, std::span<double> data, std::span<SampleRange> ranges, Tally& tally,
                        const Watch& watch) const;
 

@@ -158,8 +158,7 @@ int Pilot::bounces_for_tail(double fraction) const {
 }
 
 double Pilot::rest_probability(int N) const {
-    // The pilot's walks have no roulette up to its last term. The render's walks have it beyond N, and their number
-    // falls about as the terms do.
+    // Unlike the pilot's walks, the render's have roulette beyond N, and their number falls about as the terms do.
     const auto term = [&](std::size_t q) { return rest_[q - 1].mean - (q < rest_.size() ? rest_[q].mean : 0.0); };
     const auto first = static_cast<std::size_t>(std::min(N, bounces())) + 1, last = rays_.size() - 1;
     // As many walks go on beyond the last term as reach it.

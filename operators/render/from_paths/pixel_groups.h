@@ -1,5 +1,4 @@
-// Samples a replicate that is a whole picture, in which each pixel has samples of its own: group by group, on all
-// threads.
+// Samples a replicate that is a whole picture, in which each pixel has its own samples: in groups, on all threads.
 #pragma once
 
 #include "operators/paths/walk/path_group.h"

@@ -26,8 +26,7 @@ struct SampledShare {
     Tally tally;
 };
 
-// Other processes that sample shares of one render, each a few at a time. Exceptions report failures of helpers and end
-// the render.
+// Other processes that sample shares of one render, each a few at a time. A helper's exception ends the render.
 class Helpers {
 public:
     virtual ~Helpers() = default;

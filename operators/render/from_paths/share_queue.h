@@ -1,5 +1,4 @@
-// Shares that this process samples one after the other in a thread of its own, so that another thread can read messages
-// meanwhile.
+// Shares that a thread of this process samples one after the other, while another thread can read messages.
 #pragma once
 
 #include "operators/render/from_paths/picture_sampler.h"

@@ -14,8 +14,7 @@ public:
     // Keeps a pointer to the processes; null: this process reads all groups.
     SharedPixels(std::uint32_t groups, Processes* processes) : groups_(groups), processes_(processes) {}
 
-    // The number of parts of the picture. All processes read in the same part, one part after the other, so that none
-    // is far ahead.
+    // The number of parts of the picture. All processes read one part after the other, so that none is far ahead.
     std::uint32_t rounds() const { return processes_ ? 64 : 1; }
     // The groups [first, second) that this process reads.
     std::pair<std::uint32_t, std::uint32_t> own(std::uint32_t round) const;

@@ -1,5 +1,4 @@
-// The replicates of a render, sampled by this process together with others. Which process samples a share depends on
-// who is free; the result does not.
+// The replicates of a render, sampled together with other processes. The result does not depend on who samples what.
 #pragma once
 
 #include "operators/render/from_paths/share_queue.h"

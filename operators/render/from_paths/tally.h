@@ -9,8 +9,7 @@
 
 namespace neumann {
 
-// A sample that is not finite. It is left out of the pictures and counted, and its name is kept so that it can be
-// traced again.
+// A sample that is not finite. It is counted and left out of pictures; its name is kept, to trace it again.
 struct NonFiniteSample {
     int bounce;  // N + 1 stands for the rest
     SamplePlace place;

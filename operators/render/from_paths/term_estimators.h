@@ -1,5 +1,4 @@
-// Estimators of all terms along camera rays, and the sampler of methods whose pixels share nothing and which need
-// nothing else.
+// Estimators of all terms along camera rays, and the sampler of methods that need nothing else.
 #pragma once
 
 #include "operators/paths/walk/direct_light.h"
@@ -19,8 +18,7 @@ public:
     // Adds the terms of each ray to the samples in `result`.
     virtual void operator()(std::span<const CameraRay> rays, std::span<Sampler> samplers, Walkers& walkers,
                             TermSamples& result) const = 0;
-    // The same for an observer. Nothing is left out, so it also reports rays whose results were known without casting
-    // them (retrace.cpp).
+    // The same for an observer, with nothing left out: it also reports rays whose results were known (retrace.cpp).
     virtual void trace(PathObserver& observer, std::span<const CameraRay> rays, std::span<Sampler> samplers, Walkers& walkers,
                        TermSamples& result) const = 0;
 };

@@ -11,8 +11,7 @@
 
 namespace neumann {
 
-// Adds all quantities of each pixel of a replicate to `picture`, which is black. Returns false if `watch` stopped it:
-// the work is dropped.
+// Adds all quantities of each pixel to `picture`, which is black. False if `watch` stopped it: the work is dropped.
 using SamplePicture = std::function<bool(std::uint64_t replicate, std::vector<Rgb>& picture, const Watch& watch)>;
 
 // The node of replicates first … first + count − 1, without ranges; see PictureSampler::run().

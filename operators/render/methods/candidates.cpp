@@ -29,8 +29,7 @@ void choose_lights_by_tree(std::vector<Candidate>& all) {
 
 std::vector<Candidate> candidates(const method::PathOptions& options, const Scene& scene) {
     const Candidate both{method::Bidirectional{options}, 1.4};
-    // Light from a light without extent that mirrors and glass reflect or refract is found by paths from the light
-    // alone.
+    // Light from a light without extent that mirrors and glass pass on is found by paths from the light alone.
     const bool from_lights_alone = scene.emitters.has_delta_lights() && has_specular(scene.materials) && !scene.hide_emitters;
     std::vector<Candidate> all;
     if (!from_lights_alone) all = {{method::Walk{options}, 1.0}, {method::Corrected{options}, 1.3}, {method::Guided{options}, 1.2}};

@@ -91,8 +91,8 @@ MethodTrial described(const MethodPilot& trial, double error) {
     return {name_of(trial.candidate.method), trial.rays / trial.samples, std::sqrt(error)};
 }
 
-// Takes a method with a bias if its error after the work of `choice` is clearly smaller. `work`: the work for a squared
-// error of 1.
+// Takes a method with a bias if its error after the work of `choice` is clearly smaller. `work`: for a squared error of
+// 1.
 void allow_bias(MethodChoice& choice, double work, const std::vector<MethodPilot>& known, const Scene& small, const Goal& goal,
                 double affordable, const Goal& of_trial, Prepared& prepared, const Watch& watch) {
     if (!(work > 0.0)) return;
@@ -116,8 +116,7 @@ void allow_bias(MethodChoice& choice, double work, const std::vector<MethodPilot
     }
 }
 
-// The promises of the trials: Σ_i E|error|² / |K^i Le|² and the work for an error of 1 of each, and the index of the
-// best.
+// The promises of the trials: Σ_i E|error|² / |K^i Le|², the work for an error of 1, and the index of the best.
 struct Promise {
     std::vector<double> errors, works;
     std::size_t best = 0;
@@ -141,8 +140,7 @@ public:
         : scene_(scene), pilot_(pilot), preparations_(scene, pilot), seconds_(seconds), bounces_(bounces) {}
 
     double of_pilots() const { return part_of_render * seconds_; }
-    // The samples a pixel that there is time for: up to bounce N by the walk, or with this number of rays of this price
-    // each.
+    // The samples a pixel that there is time for: by the walk up to bounce N, or with these rays at this price.
     double samples_of_walk(int N) const { return seconds_ / (pixels_of(scene_.film) * pilot_.seconds_per_walk(N)); }
     double samples(double rays, double price) const {
         return seconds_ / (pixels_of(scene_.film) * rays * price * pilot_.seconds_per_ray());
@@ -155,8 +153,7 @@ public:
         return seconds;
     }
 
-    // Makes preparations that take too long smaller, and removes the methods whose preparations still do. Returns
-    // which, and why.
+    // Makes preparations that take too long smaller, and removes methods that still take too long. Returns the reasons.
     std::string leave_out(std::vector<Candidate>& able) const {
         std::string said;
         std::vector<Candidate> fit;

@@ -1,5 +1,4 @@
-// --method auto: chooses the method that promises least error for its cost in a scene, among the unbiased ones or, if
-// allowed, among all.
+// --method auto: chooses the method with the least error for its cost in a scene, among the unbiased ones or among all.
 #pragma once
 
 #include "operators/render/methods/goal.h"

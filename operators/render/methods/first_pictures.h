@@ -1,5 +1,4 @@
-// Shows pictures at the beginning of a long render: from fields on few patches, rough and small, in a fraction of a
-// second.
+// Shows rough, small pictures at the beginning of a long render: from fields on few patches, in a fraction of a second.
 #pragma once
 
 #include "operators/render/methods/goal.h"

@@ -40,8 +40,7 @@ struct MethodText {
     std::string name = {};  // empty: auto, or walk if an option is given that auto does not have
     std::vector<std::pair<std::string, std::string>> options = {};
 };
-// Throws InputError if a name or a text is unknown, an option does not belong to the method, or two options exclude
-// each other.
+// Throws InputError for an unknown name or text, an option of other methods, and options that exclude each other.
 Method make_method(const MethodText& text);
 // Reads a method from one word: "walk:direct=bsdf:lights=power".
 Method read_method(const std::string& word);

@@ -7,8 +7,7 @@
 
 namespace neumann {
 
-// The picture with its bias, if the method has one; `difference()` returns its picture of the differences between two
-// radii.
+// The picture with its bias, if the method has one; `difference()` is the picture of differences between two radii.
 template <class Difference>
 Estimate with_bias(Estimate picture, const Difference& difference, const std::optional<TwoRadii>& radii,
                    const SeriesMoments::Result& result) {

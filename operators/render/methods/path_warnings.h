@@ -1,4 +1,4 @@
-// Warnings about a render by paths: light that the paths miss, errors that the samples cannot show, goals that were not
+// Warnings about a render by paths: light that paths miss, errors that samples cannot show, goals that were not
 // reached.
 #pragma once
 

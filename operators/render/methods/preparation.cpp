@@ -13,8 +13,7 @@ namespace neumann {
 
 namespace {
 
-// A preparation of at least short_preparation is always allowed, so that a scene of boxes with a limit of one second
-// can have it.
+// short_preparation is always allowed, so that a scene of boxes with a limit of one second can be prepared.
 constexpr double part_of_time = 1.0 / 3.0, short_preparation = 0.5;
 double longest_preparation(double seconds) { return std::max(part_of_time * seconds, short_preparation); }
 

@@ -1,5 +1,4 @@
-// The work of a method before its first sample, foretold from the patches of the scene: each side of a shape has at
-// least one.
+// The work of a method before its first sample, foretold from the patches of the scene, at least one for each side.
 #pragma once
 
 #include "operators/render/from_paths/pilot.h"
@@ -24,11 +23,9 @@ public:
     // Foretells the work for fields and tables for paths, and for the first and smallest fields of methods that read
     // pictures from fields; zero for methods whose preparation does not grow with the scene.
     Preparation of(const Method& method) const;
-    // The method, or the finest of its versions with a coarser option, whose preparation takes at most this many
-    // seconds.
+    // The method, or the finest of its coarser versions, whose preparation takes at most this many seconds.
     std::optional<Method> fitting(double seconds, const Method& method) const;
-    // The same for the preparation that a render of this many seconds may have. Throws InputError if none is short
-    // enough.
+    // The same for the preparation that fits into a render of this many seconds. Throws InputError if there is none.
     Method in_time(double seconds, const Method& method) const;
 
     struct ShapeSides {

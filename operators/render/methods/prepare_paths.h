@@ -6,8 +6,8 @@
 
 namespace neumann {
 
-// Prepares the method within the render's time. Returns false if there was nothing to do; throws RunError if it took
-// too long, and Stopped.
+// Prepares the method within the render's time; false if there is nothing to do. Throws RunError if that takes too
+// long, and Stopped.
 bool set_up(const Method& method, const RenderJob& job, SamplingSettings& settings);
 
 struct PreparedPaths {

@@ -20,8 +20,7 @@ namespace neumann {
 
 namespace {
 
-// The samples per pixel of a replicate if patches or directions are given but not samples: about enough for
-// default_error.
+// Samples per pixel of a replicate if patches or directions are given alone: about enough for default_error.
 constexpr std::uint32_t default_samples = 16;
 // Warn if the 95% interval of a mean is wider than this part of the mean.
 constexpr double wide_interval = 0.1;
@@ -126,8 +125,7 @@ BounceSeries as_series(const std::shared_ptr<const FieldPictures>& pictures, con
     return series;
 }
 
-// Whether light from mirrors is missed: links find it (operators/fields/matrix/link_light.h), the direct light in a
-// cell does not.
+// Whether light from mirrors is missed: links find it (operators/fields/matrix/link_light.h), light in a cell does not.
 template <HasFields M>
 bool misses_mirrored_light(const Scene& scene, const M& m) {
     const FieldReading reading = kind(m);

@@ -22,8 +22,7 @@ struct RenderState {
 };
 
 struct Saving {
-    // The state to continue from, of the same scene; it determines method, seed and bounces. The goal may be another
-    // one.
+    // The state to continue from, of the same scene; it determines method, seed and bounces, but not the goal.
     std::optional<RenderState> from = {};
     // For samples of paths: called after every part, and once more when the last one is done, from the thread that
     // renders. Its exceptions end the render.

@@ -29,8 +29,7 @@ struct Checkup {
     // Upper bound, with 95% confidence, on the fraction of rays that hit their own surface (Poisson).
     double self_hits_at_most() const;
 
-    // The energy balances of the subpaths from the camera and from the lights; missing if the method's path weights are
-    // not energy.
+    // The energy balances of subpaths from the camera and from the lights; missing if path weights are not energy.
     std::optional<EnergyBalance> camera, light;
 };
 

@@ -35,8 +35,8 @@ public:
     // If no sample of the whole picture met quantity i: an upper bound, with 95% confidence, on its mean over pixels and channels;
     // infinite if there is no bound. Otherwise, or if nothing is there: 0.
     double mean_at_most(std::size_t i) const { return means_at_most_[i]; }
-    // The least standard error of the mean over pixels and channels, from one sample more or less in the whole picture.
-    // 0 if pixels share their samples.
+    // The least standard error of the mean over pixels and channels, by one sample more or less; 0 if pixels share
+    // samples.
     double of_mean(std::size_t i) const { return of_means_[i]; }
 
 private:

@@ -6,8 +6,7 @@
 
 namespace neumann {
 
-// Sets the missing light of each bounce: mean(pilot) − mean(picture), which are independent, for bounces up to
-// Pilot::bounces().
+// Sets the missing light of bounces up to Pilot::bounces(): mean(pilot) − mean(picture), which are independent.
 void report_missing(SeriesReport& report, const Pilot& pilot);
 
 }  // namespace neumann

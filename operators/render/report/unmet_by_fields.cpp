@@ -43,8 +43,7 @@ public:
             if (all[c] > 0.0) all[c] = albedo_[c] < 1.0 ? all[c] / (1.0 - albedo_[c]) : std::numeric_limits<double>::infinity();
         return on_surfaces(all);
     }
-    // Call if the bounce was met: later ones have no more than its largest visible value. (A path by links may bring
-    // any power.)
+    // Call if the bounce was met: later ones have no more than its largest visible value (except by links).
     void look() {
         if (!is_sampled_ || bounce_ == 0) return;
         Rgb largest(0.0);

@@ -19,8 +19,7 @@ Cases extreme_brightness_cases() {
                                           {.samples = 128, .bounces = 8, .seed = seed});
                          };
                          const Estimates one = found(0);
-                         // 2^-900 = 1e-271; for much smaller values, the numbers added to means are subnormal and have
-                         // fewer bits.
+                         // 2^-900 = 1e-271; far below, the numbers added to means are subnormal and have fewer bits.
                          for (const int k : {-900, -100, -20, 10, 60, 100}) {
                              const Estimates other = found(k);
                              int different = 0;

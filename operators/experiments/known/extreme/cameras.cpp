@@ -78,8 +78,7 @@ Cases extreme_camera_cases() {
                                           static_cast<double>(std::get<PathRecord>(pictures.record).health->non_finite()), 0, 0);
                          }});
     };
-    // The camera looks along +z, away from the floor on which it stands; from within a box it sees backs, which are
-    // black.
+    // The camera looks along +z, away from the floor under it; within a box it sees backs, which are black.
     add_furnace("on-a-surface", {0.1, -0.3, -1.0}, "rho^i: exact", 1.0);
     add_furnace("close-to-a-corner", {-1.0 + 1e-5, -1.0 + 1e-5, -1.0 + 1e-5}, "rho^i: exact", 1.0);
     add_furnace("inside-a-wall", {0.4, 0.4, 0.4}, "backs are black: exactly 0", 0.0);

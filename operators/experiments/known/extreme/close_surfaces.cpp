@@ -67,8 +67,7 @@ double perpendicular_corner(double b, double h, double d) {
     return (std::atan(b / d) - d / r * std::atan(b / r)) / (2.0 * pi);
 }
 
-// A unit cube hovers above the ground under the sky: K Le = ρ (1 − F) on the ground, in front of the middle of one of
-// its sides.
+// A unit cube hovers above the ground under the sky: K Le = ρ (1 − F) on the ground, in front of one side's middle.
 void hovering_cube(Figures& figures, std::uint64_t seed, double half_width, double gap, const Mat4& to_world) {
     const double rho = 0.5;
     SceneMaker maker;
@@ -195,8 +194,7 @@ Cases extreme_close_cases() {
                              }});
         cases.push_back({fmt::format("extreme/close/boxes-at-random-{}", place.name), "rho^i: exact",
                          [=](Figures& figures, std::uint64_t seed) { boxes_at_random(figures, seed, to_world); }});
-        // A sphere that touches the floor, one that is sunk into a wall, two that overlap, and a closed cylinder that
-        // stands on the floor.
+        // A sphere that touches the floor, one sunk into a wall, two that overlap, and a closed cylinder on the floor.
         cases.push_back(
             {fmt::format("extreme/close/round-{}", place.name), "rho^i: exact", [=](Figures& figures, std::uint64_t seed) {
                  const double r = 0.25;
