@@ -37,7 +37,7 @@ struct Row {
     double noise = 0.0;
     std::optional<double> flip = {};  // the mean, if it was requested
     bool a_has_error = false, b_has_error = false, degrees_known = true, infinite_variance = false;
-    // whether the mean has the widest interval, because the errors of a picture's pixels may be correlated
+    // Whether the mean has the widest interval, because the errors of a picture's pixels may be correlated.
     bool widest = false;
 
     bool has_error() const { return a_has_error || b_has_error; }

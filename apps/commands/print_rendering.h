@@ -11,7 +11,6 @@ namespace neumann {
 void print_summary(const BounceSeries& series, const std::string& folder);
 // Prints warnings and complaints on stderr.
 void print_problems(const Rendering& rendering, const Warnings& warnings, const std::string& folder);
-// Prints all of it.
 void print_rendering(const Rendering& rendering, const Warnings& warnings, const std::string& folder);
 
 }  // namespace neumann

@@ -139,7 +139,7 @@ std::shared_ptr<Rendering> render(const RenderRequest& request, std::shared_ptr<
 
 int render_command(const RenderRequest& given) {
     RenderRequest request = given;
-    // throws for options that exclude each other, before the scene is read
+    // This throws for options that exclude each other, before the scene is read.
     const bool fields = has_fields(make_method(request.method));
     if (request.goal.part && (fields || !request.goal.samples))
         throw InputError(fields ? fmt::format("--part: {} has no samples that could be put together", request.method.name)

@@ -20,7 +20,6 @@ struct Viewers {
     SmallShare share;
     double longest_unseen = std::numeric_limits<double>::infinity();
 };
-// Viewers that the user asked for.
 Viewers asked_for(std::vector<Viewer*> all);
 
 // Renders a scene in memory, and into memory. `watch` must not have a judge. Throws InputError and RunError.

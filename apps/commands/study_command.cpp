@@ -145,7 +145,6 @@ std::string what_it_takes(const StudyData& data, bool makes_reference) {
     return text;
 }
 
-// Shows the present work on a terminal.
 class Status {
 public:
     explicit Status(bool quiet) : active_(!quiet && isatty(STDERR_FILENO)) {}

@@ -69,7 +69,7 @@ public:
         acceptor_.open(here.protocol(), error);
         if (!error) {
             stays_here(acceptor_);
-            // needed while connections of an earlier server are closing
+            // This is needed while connections of an earlier server are closing.
             acceptor_.set_option(asio::socket_base::reuse_address(true));
             acceptor_.bind(here, error);
         }

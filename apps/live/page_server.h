@@ -23,7 +23,6 @@ public:
     // May be called from any thread, and do not wait. Data are those of explorer_data(); `progress`: an object.
     void tell(nlohmann::ordered_json progress);
     void show(std::string data);
-    // Shows the last data.
     void finish(std::string data);
 
     // Waits until open pages, or one that `is_expected`, have the last data; but no longer than `at_most`.

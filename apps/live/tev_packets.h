@@ -15,7 +15,6 @@ std::vector<std::string> tev_channels(const std::string& layer);
 
 // Creates an image of this name with channels that are black. It replaces one of the same name.
 std::string tev_create_image(const std::string& name, int width, int height, const std::vector<std::string>& channels);
-// Sets the channels of a layer.
 std::string tev_update_image(const std::string& name, const std::string& layer, const Image& picture);
 
 }  // namespace neumann

@@ -27,7 +27,6 @@ struct Rendering {
     int processes = 1;
     Processes::Traffic traffic = {};
 
-    // The warnings of the scene and of the render.
     Warnings warnings() const;
     // Messages about problems, one line each; `folder`: named in the command that replays them.
     std::vector<std::string> complaints(const std::string& folder) const;

@@ -131,7 +131,6 @@ Json photons_json(const PhotonPilot& photons, const PathRecord& record, std::siz
     return json;
 }
 
-// The places of the cache's records.
 Json records_json(const RecordPlaces& places) {
     std::vector<double> radii;
     for (const Record& record : places.records()) radii.push_back(record.radius);
@@ -143,7 +142,6 @@ Json records_json(const RecordPlaces& places) {
     return json;
 }
 
-// The mixing of the chains of each bounce.
 Json chains_json(const std::vector<ChainStatistics>& all) {
     Json json = Json::array();
     for (std::size_t bounce = 1; bounce < all.size(); ++bounce) {

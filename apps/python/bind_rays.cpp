@@ -187,7 +187,6 @@ py::array view(const py::object& owner, const Get& get) {
     return array;
 }
 
-// The points with these numbers.
 template <class Points>
 Points take(const Points& points, const py::array_t<std::int64_t, py::array::c_style>& numbers) {
     Points taken{points.scene, {}};

@@ -86,7 +86,7 @@ void bind_scene(py::module_& m) {
     m.def("trees_built", &trees_built, "The number of acceleration structures that were built so far.");
     py::class_<LoadedScene, std::shared_ptr<LoadedScene>>(m, "Scene", "A scene as its files were when it was read.")
         .def_property_readonly("path",
-                               // bytes that are not UTF-8 are as Python has them in names of files
+                               // Bytes that are not UTF-8 are as Python has them in names of files.
                                [](const LoadedScene& s) {
                                    return py::reinterpret_steal<py::str>(PyUnicode_DecodeFSDefaultAndSize(
                                        s.file.path.data(), static_cast<py::ssize_t>(s.file.path.size())));

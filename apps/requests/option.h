@@ -43,7 +43,6 @@ struct OptionWords {
     }
 };
 
-// An option of a request, and the member that holds its value.
 template <class Request>
 struct Option : OptionWords {
     // Sets the member. Requires that no text is wrong. Throws InputError for texts that exclude each other.

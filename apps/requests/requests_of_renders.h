@@ -6,7 +6,6 @@
 
 namespace neumann {
 
-// The request of `neumann compare`.
 struct CompareRequest {
     std::string a, b;               // two pictures or two folders; b is the reference
     std::string output;             // the folder for a page of all folders, or empty
@@ -16,7 +15,6 @@ struct CompareRequest {
 
 const Options<CompareRequest>& compare_options();
 
-// The request of `neumann merge`.
 struct MergeRequest {
     std::vector<std::string> folders;
     std::string output;
@@ -30,7 +28,6 @@ struct MergeRequest {
 
 const Options<MergeRequest>& merge_options();
 
-// The request of `neumann page`.
 struct PageRequest {
     std::string folder;
     std::vector<std::string> files = page_file_groups();
@@ -42,7 +39,6 @@ struct PageRequest {
 
 const Options<PageRequest>& page_options();
 
-// The request of `neumann replay`.
 struct ReplayRequest {
     std::string folder;
     std::optional<std::uint64_t> number;      // number of a sample in the health report

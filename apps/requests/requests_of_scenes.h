@@ -7,7 +7,6 @@
 
 namespace neumann {
 
-// The request of `neumann plan`.
 struct PlanRequest {
     SceneFile scene;
     bool json = false;
@@ -15,7 +14,6 @@ struct PlanRequest {
 
 const Options<PlanRequest>& plan_options();
 
-// The request of `neumann convert`.
 struct ConvertRequest {
     SceneFile scene;
     std::string output;
@@ -24,7 +22,6 @@ struct ConvertRequest {
 
 const Options<ConvertRequest>& convert_options();
 
-// The request of `neumann conform`.
 struct ConformRequest {
     std::string folder;
     std::string only;  // only scenes whose path contains this
@@ -37,7 +34,6 @@ struct ConformRequest {
 
 const Options<ConformRequest>& conform_options();
 
-// The request of `neumann stress`.
 struct StressRequest {
     std::string only;  // part of the names of cases; empty: all cases
     std::uint64_t seed = known::default_seed;

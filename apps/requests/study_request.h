@@ -14,7 +14,7 @@ namespace neumann {
 struct StudyRequest {
     SceneFile scene;
     std::string output;  // a folder; empty: out/NAME-study
-    // as read_method() reads them, or names of estimators; empty: all that can render the scene
+    // As read_method() reads them, or names of estimators; empty: all that can render the scene.
     std::vector<std::string> methods;
     std::string reference;  // a method that renders it, a folder of an earlier render, or values:…; empty: chosen
     std::optional<std::uint64_t> reference_samples;

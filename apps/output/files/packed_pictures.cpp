@@ -24,7 +24,6 @@ constexpr int largest_code = 254, unknown = 255;
 constexpr int compression = 1;
 constexpr std::size_t discretisation_block = 4;
 
-// Calls what(i) for every pixel.
 template <typename Function>
 void for_pixels(std::size_t pixels, const Function& what) {
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, pixels, 4096), [&](const auto& range) {

@@ -40,7 +40,6 @@ Scene read_scene_of(const RecordedRun& run);
 // The number of a pixel. Throws InputError, which begins with the option, if it is not in the picture.
 std::uint32_t pixel_number(const Film& film, int x, int y, const char* option);
 
-// A sample that the health report names, and why.
 struct ReportedSample {
     SampleName name;
     std::string why;  // "bounce 3: the largest sample of …"
@@ -60,7 +59,6 @@ public:
         SampleName name;
     };
     Place find(SampleName name);
-    // All replicates of the run.
     std::vector<ReplicatesOf> replicates();
 
 private:

@@ -13,7 +13,6 @@
 
 namespace neumann {
 
-// The request of the render.
 struct RequestOnDisk {
     nlohmann::ordered_json request;  // the options of a render (request_json.h)
     std::string scene_hash;
@@ -28,7 +27,6 @@ void save_fields(OutputFolder& folder, const RequestOnDisk& request, const Recor
 // The request of the unfinished render in a folder, of the samples kept there, or else from its run.json. Throws
 // InputError if none of them exists.
 RequestOnDisk request_in(const std::filesystem::path& folder);
-// The request in such a file.
 RequestOnDisk request_in_file(const std::filesystem::path& file);
 // The file of the unfinished render or of the kept samples, if any.
 std::optional<std::filesystem::path> saved_render_in(const std::filesystem::path& folder);

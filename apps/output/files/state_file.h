@@ -42,7 +42,6 @@ public:
     StateFile(const StateFile&) = delete;
 
     const nlohmann::ordered_json& header() const { return header_; }
-    // Reads the next numbers.
     template <class T>
     std::vector<T> numbers(std::uint64_t count) {
         if (count > left_ / sizeof(T)) damaged("it ends too early");

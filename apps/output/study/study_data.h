@@ -34,7 +34,7 @@ struct StudyData {
     std::string picture_name(std::size_t picture) const;                                         // "0" … "sum"
     std::string picture_title(std::size_t picture) const;  // "bounce 0" … "the sum of bounces 0 to 4"
     std::vector<std::string> warnings() const;
-    // the least number of any point; smaller than requested if the study was cut off
+    // The least number of any point; smaller than requested if the study was cut off.
     std::size_t fewest_repeats() const;
 };
 

@@ -27,7 +27,6 @@ public:
     void expect_same(const nlohmann::ordered_json& study) const;
 
     void begin(const nlohmann::ordered_json& study, const nlohmann::ordered_json& plan);
-    // The finished runs, in order.
     std::vector<StudyRun> runs;
 
     // `pictures`: all bounces and the sum.

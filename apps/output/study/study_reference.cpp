@@ -122,7 +122,6 @@ void keep(const fs::path& path, const Json& identity, const StudyReference& refe
     folder.commit();
 }
 
-// The method that makes a reference.
 StudyMethod making_method(const StudyRequest& request) {
     StudyMethod method{request.reference, {}};
     try {

@@ -26,7 +26,7 @@ struct TermVerdict {
     // Why a term cannot be judged. Right renderers, too, make pictures that look as if something were wrong.
     enum class Doubt {
         few_samples,  // our samples: the difference may be our noise, or no mistake is clearly likelier than none
-        // their pictures differ over wide areas by more than their own noise, and no mistake explains it
+        // Their pictures differ over wide areas by more than their own noise, and no mistake explains it.
         shared_numbers,
         seeds_differ  // likewise, and so do their pictures of two seeds
     };
@@ -53,7 +53,7 @@ struct Blame {
 
     Counting counting = Counting::mitsuba;
     std::optional<Counting> told;  // set if the data say something else
-    // from a second picture or a variance; otherwise it is taken as ours times a number
+    // Whether it is from a second picture or a variance; otherwise it is taken as ours times a number.
     bool knows_their_noise = false;
     std::vector<TermVerdict> terms;
     std::optional<std::size_t> first_wrong;  // index into `terms`

@@ -74,7 +74,6 @@ BlockNoise noise_in(BlockDifference& of, int c, const Image& difference, double 
     return noise;
 }
 
-// The noise of several blocks together.
 struct PooledNoise {
     double variance = 0.0, light = 0.0, squares = 0.0, cubes = 0.0, fourths = 0.0, pixels = 0.0;
 

@@ -24,7 +24,7 @@ public:
     ExpectedPictures(Scene scene, std::optional<std::uint64_t> samples, double seconds, std::uint64_t seed, Watch watch = {});
 
     const Scene& scene() const { return scene_; }
-    // Our terms of at least bounces 0 … `bounces`. All functions throw Stopped.
+    // Bounces 0 … `bounces` at least. All functions throw Stopped.
     std::shared_ptr<const BounceSeries> ours(int bounces);
     std::shared_ptr<const std::vector<WrongTerms>> wrong(const Ranges& ranges);
     int paths_a_pixel() const;  // samples of a pixel in wrong()

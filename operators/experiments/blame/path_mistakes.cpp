@@ -129,7 +129,7 @@ private:
         void reflect(const SurfaceSide& side, const SurfacePoint& x, const Vec3& wo, const Rgb& beta, int bounce, bool is_mirror);
 
         const WrongPaths& paths;
-        // by mistake: the factors of the path so far, and the contribution to this bounce
+        // By mistake: the factors of the path so far, and the contribution to this bounce.
         std::vector<Rgb> factor, now;
         std::vector<Rgb> arrived;  // the factors before this bounce's reflection
         std::vector<Rgb> found;    // by mistake and range

@@ -17,7 +17,7 @@ struct Suspect {
     double misfit = 0.0;
     bool is_fitted = false;   // a factor or an offset, which describes and does not explain
     bool is_a_cause = false;  // see WrongPictures
-    // part of the squared difference in the first term (see Explained); the best value of its kind
+    // Part of the squared difference in the first term (see Explained); the best value of its kind.
     double explained = 0.0;
     DifferenceTest left;  // test of the first term against the picture of this mistake
 

@@ -54,7 +54,6 @@ SensorOptions looking(const Vec3& from, const Vec3& to) {
     return camera;
 }
 
-// The sheet's corner and sides.
 struct Place {
     Vec3 corner, a, b;
 };

@@ -142,7 +142,6 @@ const SobolPoints& sobol_points(std::uint32_t size) {
     return known.try_emplace(size, size).first->second;
 }
 
-// The samples of one place, batch by batch.
 class Probe {
 public:
     // `most`: the largest number of samples that a batch will ever have.

@@ -32,7 +32,6 @@ StartPicker seen(const Scene& scene, const Vec3& origin, const Vec3& direction);
 // Uniform on one shape, leaving its front along the normal.
 StartPicker anywhere_on(const Scene& scene, std::uint32_t shape);
 
-// Uniform on all surfaces.
 StartPicker anywhere(const Scene& scene);
 
 // The way to estimate the terms: by the walk with its three kinds of direct light, or by the series of operators, with

@@ -30,7 +30,6 @@ inline Surface glowing(double rho, double radiance) { return {grey(rho), grey(ra
 
 class SceneMaker {
 public:
-    // Returns the shape's number.
     std::uint32_t add(Shape shape, const Surface& surface);
     template <std::size_t n>
     std::array<std::uint32_t, n> add(const std::array<TriangleMesh, n>& meshes, const Surface& surface) {

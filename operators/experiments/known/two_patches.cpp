@@ -16,7 +16,6 @@ namespace neumann::known {
 
 namespace {
 
-// K^i Le on both surfaces.
 std::array<std::vector<double>, 2> terms_of(const DenseChannel& K, const Vector& Le, int count) {
     std::array<std::vector<double>, 2> result;
     TermSeries series(K, Le);

@@ -14,7 +14,7 @@ namespace neumann {
 struct SeenPoint {
     SurfacePoint y;                                             // at infinity if nothing is seen
     double distance = std::numeric_limits<double>::infinity();  // scene units
-    // unit length, as the material uses it, on the side that is seen
+    // Unit length, as the material uses it, on the side that is seen.
     Vec3 normal{std::numeric_limits<double>::quiet_NaN()};
     Rgb emission{0.0};                                          // Le(y, −ω)
     Rgb reflectance{std::numeric_limits<double>::quiet_NaN()};  // π fs of that side: 0 if it absorbs, NaN if it is not diffuse

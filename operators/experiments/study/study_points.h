@@ -17,7 +17,7 @@ struct StudyRun {
     double setup_seconds = 0.0, seconds = 0.0, peak_memory = 0.0;
     std::vector<std::uint64_t> rays;  // of each bounce 0 … N
     std::vector<double> mean;         // of each bounce, and of their sum
-    // relative, as the method estimates it, for the same pictures; empty if there is none
+    // Relative, as the method estimates it, for the same pictures; empty if there is none.
     std::vector<double> discretisation;
     std::string variance;  // a letter for each bounce: f finite, i infinite, ? unknown
     std::vector<std::string> warnings;
@@ -35,7 +35,6 @@ struct StudyPlace {
 };
 StudyPlace place_of_run(std::size_t n, const StudyPlan& plan);
 
-// All repeats of one method at one budget.
 struct StudyPoint {
     std::vector<StudyRun> runs;
     std::vector<ErrorStatistics> errors;  // of each bounce, and of their sum

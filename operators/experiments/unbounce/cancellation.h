@@ -21,7 +21,6 @@ namespace neumann {
 struct Cancellation {
     Eigen::MatrixXd T, inverse, direct;  // T (regions × lights), T⁻¹ (lights × regions), T¹ (regions × lights)
 
-    // A = (T − T¹) T⁻¹.
     Eigen::MatrixXd once_more() const { return (T - direct) * inverse; }
 };
 

@@ -144,7 +144,7 @@ struct Writer {
         int foreigners = 0;
         for (Eigen::Index j = 0; j < T.value.cols(); ++j) {
             if (sizes[j] == 0.0 || T.value(j, j) <= 0.0) {
-                // a black light shines on nothing
+                // A black light shines on nothing.
                 if (T.value.col(j).sum() > 0.0) idle.push_back(names[static_cast<std::size_t>(j)]);
                 continue;
             }

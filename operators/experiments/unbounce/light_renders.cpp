@@ -43,7 +43,6 @@ SamplingSettings settings_of_walks(const Scene& scene, const LightSampling& samp
     return settings;
 }
 
-// Means of equal parts, and their standard errors.
 class Parts {
 public:
     explicit Parts(std::size_t size) : sums_(size, Rgb(0.0)), squares_(sums_) {}

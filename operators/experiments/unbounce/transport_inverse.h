@@ -12,7 +12,6 @@
 
 namespace neumann {
 
-// Describes how well T̃ can be inverted.
 struct Conditioning {
     double largest = 0.0, smallest = 0.0;  // singular values
     double noise = 0.0;                    // ‖E‖₂ of the errors E of T̃, estimated; 0 if they are not known

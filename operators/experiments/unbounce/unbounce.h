@@ -26,8 +26,7 @@ struct UnbounceSettings {
     int bounces = 6;  // N
     std::optional<double> regularisation = {};
     bool with_direct = false;  // take T¹ from the direct pictures in place of T⁻¹
-    // for each light, its number among fewer, merged ones; their difference estimates the error due to the size of
-    // regions
+    // For each light, its number among fewer, merged ones, to estimate the error due to the size of regions.
     std::vector<int> merged = {};
     std::uint64_t seed = 0;
 };
@@ -42,7 +41,7 @@ struct Unbounced {
     // merged regions.
     std::vector<PixelEstimate> terms;
     std::vector<PictureMeans> means;
-    // for the mean of term n, |difference| from merged regions; empty: not estimated
+    // For the mean of term n, |difference| from merged regions; empty: not estimated.
     std::vector<double> discretisation;
     Image picture, rest;                // L, and L minus the sum of the terms
     RegionMeans pictures;               // T

@@ -32,7 +32,6 @@ ChannelPictures chosen(const ChannelPictures& all, const std::vector<int>& light
     return some;
 }
 
-// Normal deviates of one repeat.
 class Deviates {
 public:
     Deviates(std::uint64_t seed, std::uint32_t repeat) : numbers_(seed, repeat) {}
@@ -95,7 +94,6 @@ Answer answer(const ChannelPictures& pictures, double alpha, int bounces) {
     return result;
 }
 
-// The spread of repeats around their mean.
 class Spread {
 public:
     void add(const MatrixXd& x) {

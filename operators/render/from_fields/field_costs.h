@@ -33,7 +33,7 @@ private:
 
     const Film* film_;
     std::map<std::uint32_t, std::size_t> sides_;
-    // of the last render; `asked_`: the patches its settings asked for
+    // Numbers of the last render; `asked_`: the patches in its settings.
     std::size_t patches_ = 0, asked_ = 0, unknowns_ = 0;
     bool has_links_ = false;
     Line fields_, pictures_;

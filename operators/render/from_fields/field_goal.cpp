@@ -68,7 +68,6 @@ FieldRun make_run(const Film& film, FieldPictures pictures, const FieldSettings&
 
 std::string seconds_text(double seconds) { return fmt::format("{:.{}f} s", seconds, seconds < 9.95 ? 1 : 0); }
 
-// Chooses the settings of the next render from the renders so far.
 class Steps {
 public:
     Steps(const Scene& scene, const FieldGoal& goal, const FieldSettings& most)

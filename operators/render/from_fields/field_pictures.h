@@ -65,14 +65,12 @@ public:
         return sums_[(replicate * quantities_ + quantity) * sums_of_quantity + which] / (static_cast<double>(width_) * height_);
     }
 
-    // power of the light on the patches, W, with replicates as observations; it has no bounces for importance
+    // Power of the light on the patches, W, with replicates as observations; it has no bounces for importance.
     EnergyBalance power;
     bool importance;  // the pictures show K*^i We, m⁻²·sr⁻¹, in place of K^i Le
     bool rest_converges = false;
-    // rays cast for each bounce and the rest; rays that serve all of them are counted for bounce 2, or for the rest if
-    // N < 2
+    // Rays cast for each bounce and the rest. Rays for all of them are counted for bounce 2, or for the rest if N < 2.
     std::vector<std::uint64_t> rays;
-    // the rest if N < 2
     std::size_t patches = 0, unknowns = 0;
     bool has_links = false;                      // whether rays of T may go on by links
     std::map<std::uint32_t, std::size_t> sides;  // number of sides of patches by their number of cells of directions
@@ -111,7 +109,7 @@ private:
     LargeArray<float> means_;  // means over the replicates, one picture per quantity
     // Sums over all pixels, replicate by replicate and quantity by quantity, of red, green, blue and their mean.
     std::vector<double> sums_, sums_of_groups_;
-    // the largest minus the smallest value in the picture, three numbers per quantity
+    // The largest minus the smallest value in the picture, three numbers per quantity.
     std::vector<double> differences_;
     RayResolution resolution_;
 };

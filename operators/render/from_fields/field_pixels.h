@@ -17,12 +17,11 @@ namespace neumann {
 
 class FieldPixels {
 public:
-    // Work space of one thread.
     struct Workspace {
-        // one sampler per sample that is read at once, one gather sampler per pixel
+        // One sampler per sample that is read at once, one gather sampler per pixel.
         std::vector<Sampler> samplers, gather_samplers;
         std::vector<PixelSample> samples;
-        // pixel by pixel, for `values` also replicate by replicate, then quantity by quantity
+        // Pixel by pixel, for `values` also replicate by replicate, then quantity by quantity.
         std::vector<double> values, difference;
     };
 

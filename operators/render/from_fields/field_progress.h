@@ -15,7 +15,7 @@ namespace neumann {
 struct FieldProgress {
     FieldSettings settings;
     double seconds = 0.0;  // of the whole render or search so far
-    // with these settings: tracing and summing, and reading the pictures
+    // With these settings: for tracing and summing, and for reading the pictures.
     double field_seconds = 0.0, picture_seconds = 0.0;
     std::vector<SavedSeries> series;  // the first replicates
 
@@ -33,8 +33,8 @@ struct FieldSaving {
     // The saved state, taken if it has the settings that are to be rendered. A search goes to its settings, which must
     // be within the limits of the search, as soon as it may.
     std::optional<FieldProgress> from = {};
-    // is_due() says whether to keep the progress now; `is_stopped` asks for that of a render that was stopped, at its
-    // end. Both functions are called from any thread, one at a time.
+    // Whether to keep the progress now, or, if `is_stopped`, that of a stopped render at its end. This and keep() are
+    // called from any thread, one at a time.
     std::function<bool(bool is_stopped)> is_due;
     std::function<void(FieldProgress&)> keep;
     // Called when all pictures of the last kept state are there.

@@ -47,7 +47,7 @@ void CacheSampler::trace_group(std::uint64_t replicate, const PixelGroup& pixels
                 const Rgb &E = work.irradiance[2 * (k - 1)], &of_wide = work.irradiance[2 * (k - 1) + 1];
                 if (!is_black(E)) find(i, q, weight * E);
                 const Rgb lost = weight * (E - of_wide);
-                // a difference that is not finite is found in the term
+                // A difference that is not finite is found in the term.
                 if (is_finite(lost)) out.quantities[i * Q + terms + q] += lost;
                 all += weight * E;
             }

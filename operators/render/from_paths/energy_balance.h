@@ -60,7 +60,7 @@ private:
     bool from_light_;
     double share_;
     Sampler random_;
-    // the last first ray of each path: one that passes a hidden light is followed by another
+    // The last first ray of each path: one that passes a hidden light is followed by another.
     std::vector<PathStep> first_;
     std::vector<char> waiting_;
     std::vector<EnergyShares> entries_;

@@ -50,7 +50,7 @@ private:
     std::uint32_t width_, height_;
     std::shared_ptr<const Mixture> mixture_;
     std::vector<std::shared_ptr<const PictureSampler>> parts_;
-    // for each method, the paths from the lights per pixel, as a part of the mixture's samples
+    // For each method, the paths from the lights per pixel, as a part of the mixture's samples.
     std::vector<double> splats_;
 };
 

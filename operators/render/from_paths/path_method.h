@@ -27,10 +27,9 @@ enum class Paths {
 
 enum class Remedy {
     ask_lights,  // the walk with multiple importance sampling: the vertex that hit the light could have sampled it
-    // two neighbouring vertices, or the camera and the first vertex, can be connected: paths from the lights find light
-    // behind a delta lobe more often than walks hit it by chance
+    // Two neighbouring vertices, or the camera and the first vertex, can be connected: paths from the lights find light
+    // behind a delta lobe more often than walks hit it by chance.
     bidirectional,
-    // light behind a delta lobe more often than walks hit it by chance
     more_bounces  // the rest is sampled from the camera alone, so a larger N helps
 };
 
@@ -38,7 +37,7 @@ enum class Remedy {
 struct TwoRadii {
     double part_of_bias;  // the difference as a part of the bias
     bool errs_both_ways;  // the bias has both signs, so that the difference is 0 in places where the bias is not
-    // whether the variance of the difference is half of the picture's; otherwise it is that of the terms
+    // Whether the variance of the difference is half of the picture's; otherwise it is that of the terms.
     bool difference_is_of_kernel;
 };
 

@@ -27,7 +27,6 @@ std::atomic<std::uint64_t> pilots = 0;
 
 // The walks up to a bounce N. Their quantities are the terms 0 … N, and the rest as the last.
 struct Pilot::Walks {
-    // The moments of each quantity over walks.
     struct Moments {
         std::vector<double> sum, square;
         explicit Moments(std::size_t quantities) : sum(quantities), square(quantities) {}

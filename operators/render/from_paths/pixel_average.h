@@ -12,7 +12,6 @@
 
 namespace neumann {
 
-// The means of all quantities, and work space.
 struct PixelAverage {
     explicit PixelAverage(std::size_t quantities) : mean(quantities), low(quantities), high(quantities) {}
     std::vector<Rgb> mean, low, high;

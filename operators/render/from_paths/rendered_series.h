@@ -22,7 +22,7 @@ struct SamplingGoal {
 // A range of replicates of a seed.
 struct SeedRange {
     std::uint64_t seed = 0, first = 0, count = 0;
-    // the pixels' numbers of samples in a replicate, if they differ; other seeds may have others
+    // The pixels' numbers of samples in a replicate, if they differ; other seeds may have others.
     std::vector<std::uint32_t> sizes = {};
 };
 
@@ -37,7 +37,7 @@ struct RenderedSeries {
     std::uint64_t samples = 0;
     // Set if the series ended because the remaining time is enough for replicates of this size, from the beginning.
     std::optional<std::uint32_t> larger_replicates = {};
-    // the pixels' numbers of samples in a replicate, if they differ (sample_layout.h) and `merged` has none
+    // The pixels' numbers of samples in a replicate, if they differ (sample_layout.h) and `merged` has none.
     std::vector<std::uint32_t> sizes = {};
     // If renders of several seeds were merged: their replicates, one range after the other. Otherwise empty.
     std::vector<SeedRange> merged = {};

@@ -48,7 +48,6 @@ public:
     std::uint32_t size(std::uint32_t pixel) const;
     std::vector<std::uint32_t> sizes() const;  // of all pixels, if they differ
     std::uint32_t pixels() const { return pixels_; }
-    // The number of paths in a replicate.
     std::uint32_t paths() const;
     std::uint32_t first_path(std::uint32_t pixel) const;
     std::uint32_t pixel_of(std::uint32_t path) const;
@@ -58,7 +57,6 @@ public:
     PixelGroup group(std::uint32_t number) const;
     // The number of the group that contains this pixel, which must have samples.
     std::uint32_t group_of(std::uint32_t pixel) const;
-    // The group that contains this path.
     PixelGroup group_with(std::uint32_t path) const { return group(group_of(pixel_of(path))); }
 
     SampleName name(std::uint64_t replicate, std::uint32_t path) const;

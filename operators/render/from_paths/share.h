@@ -30,7 +30,6 @@ struct SampledShare {
 class Helpers {
 public:
     virtual ~Helpers() = default;
-    // The number of helpers.
     virtual int count() const = 0;
     // Gives the share to a helper that has room for it, if there is one; `tally` is that of the earlier replicates.
     virtual bool give(const Share& share, const Tally& tally) = 0;

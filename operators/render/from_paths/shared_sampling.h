@@ -36,7 +36,7 @@ private:
     NodeAt node_at_;
     std::uint32_t pieces_;
     ShareQueue here_;
-    // planned nodes: first replicate and number of replicates
+    // Planned nodes: first replicate and number of replicates.
     std::deque<std::pair<std::uint64_t, std::uint64_t>> nodes_;
     std::deque<Share> to_do_;  // the shares of these nodes, in order
     std::size_t under_way_ = 0;

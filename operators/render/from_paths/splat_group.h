@@ -15,7 +15,6 @@ constexpr std::uint32_t light_net = 4096;
 // The pixel number for the random numbers of paths from the lights.
 constexpr std::uint32_t of_lights = 0xffffffffu;
 
-// Work space of one thread.
 struct SplatSampler::Workspace {
     explicit Workspace(std::size_t quantities) : tally(quantities) {}
 

@@ -11,7 +11,6 @@ namespace neumann {
 
 namespace {
 
-// The number of groups in one Chunk of work.
 constexpr std::uint32_t groups_at_once = 8;
 
 }  // namespace

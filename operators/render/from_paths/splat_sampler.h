@@ -33,7 +33,6 @@ private:
 // Subpaths from both ends, joined at every pair of vertices.
 class BidirectionalPaths : public PathMethod {
 public:
-    // The meaning of the quantities of a sample.
     enum class Quantities {
         terms,
         ways  // each way (s, t) to make bounce N: N + 2 weighted ones, and then N + 2 unweighted ones

@@ -7,7 +7,6 @@ namespace neumann {
 
 namespace {
 
-// One thread's work space for pixels of a whole picture.
 struct PictureWork {
     explicit PictureWork(std::size_t quantities) : average(quantities), tally(quantities) {}
     PathGroup group;

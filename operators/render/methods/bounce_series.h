@@ -36,7 +36,7 @@ struct PathRecord {
     // scene's largest albedo and others near 1.
     std::vector<std::pair<double, FurnaceWalk>> furnaces;
     std::shared_ptr<const PathMethod> path_method;  // the method with what it prepared before the first sample
-    // samples of a pixel in a replicate, if pixels have different numbers
+    // Samples of a pixel in a replicate, if pixels have different numbers.
     std::uint32_t fewest_of_pixel = 0, most_of_pixel = 0;
     std::vector<ChainStatistics> chains;  // for `metropolis`, bounces 0 … N
     std::optional<Health> health;         // none if only pictures were wanted

@@ -48,7 +48,6 @@ constexpr double work_of_guided = 0.4, rays_of_tables = 4.5e6;
 // The rays for the shared points of `corrected` in a pilot, however small its film is.
 constexpr double rays_of_points = 130'000.0;
 
-// The size of a pilot.
 struct TrialSize {
     int width = trial_width;
     std::uint64_t samples = first_trial_samples;

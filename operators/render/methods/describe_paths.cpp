@@ -72,7 +72,7 @@ PathRecord record_of(const RenderedSeries& sampled, const Method& method, const 
     if (verdict == RestVerdict::not_converging)
         record.why_no_rest = fmt::format("{} of {} walks had not ended after {} bounces and were given up", job.pilot().given_up(),
                                          job.pilot().walks(), job.pilot().bounces() + Pilot::give_up);
-    // fields are large, and nothing is reported about them
+    // Fields are large, and nothing is reported about them.
     if (!prepares_fields(method)) record.path_method = settings.method;
     record.chains = sampled.tally.chains;
     if (settings.allocation) {

@@ -25,7 +25,6 @@ struct Watch;
 
 namespace method {
 
-// The arguments of prepare().
 struct Preparing {
     const Scene& scene;
     const SamplingSettings& settings;

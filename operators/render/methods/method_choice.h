@@ -8,7 +8,6 @@
 
 namespace neumann {
 
-// The result of a method's pilot.
 struct MethodTrial {
     std::string method;
     double rays = 0.0;   // per camera sample, without those before the first sample

@@ -23,7 +23,6 @@ public:
     // The method that was kept under this name, or null. It refers to no scene, only to its geometry.
     std::shared_ptr<const PathMethod> of(const std::string& method) const;
     std::shared_ptr<const PathMethod> keep(const std::string& method, std::shared_ptr<const PathMethod> made);
-    // Forgets the other methods.
     void keep_only(const std::string& method);
 
 private:

@@ -38,7 +38,6 @@ struct Group {
     PathsToInspect::Group paths;
 };
 
-// Inspects one group of paths.
 struct GroupCheckup : PathObserver {
     GroupCheckup(const SampleLayout& layout, const Group& group, bool meets)
         : layout(layout), replicate(group.replicate), paths(group.paths), rays_meet_surfaces(meets) {}

@@ -22,7 +22,7 @@ struct SelfHit {
 };
 
 struct Checkup {
-    // inspected ones; only rays that leave a surface to find the next hit are counted
+    // The inspected ones; only rays that leave a surface to find the next hit are counted.
     std::uint64_t paths = 0, rays = 0;
     std::uint64_t self_hits = 0;
     std::vector<SelfHit> first_self_hits;  // in order of bounce and sample

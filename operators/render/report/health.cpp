@@ -73,7 +73,7 @@ Health examine(const Scene& scene, const SamplingSettings& settings, const Rende
     }
     const PictureSampler sampler(scene, settings);
     for (std::size_t q = 0; q < quantities; ++q)
-        // merged renders have several seeds
+        // Merged renders have several seeds.
         if (SampleHealth& bounce = health.bounces[q]; bounce.fireflies > 0 && series.merged.empty())
             bounce.remedies = remedies(scene, sampler, bounce.largest->sample.place.name, q);
     health.first_non_finite = series.tally.non_finite;

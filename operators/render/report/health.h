@@ -19,7 +19,6 @@ struct LargestShare {
     double of_sum = 0.0;     // share of the pixel's sum of all bounces and the rest
 };
 
-// The health of a bounce or of the rest.
 struct SampleHealth {
     std::uint64_t non_finite = 0;
     // Number of pixels whose samples are finite but whose mean overflows, and the first such pixel.

@@ -45,7 +45,6 @@ std::vector<Rgb> bounds(const Scene& scene, const SamplingSettings& settings) {
     return all;
 }
 
-// Computes the bounds of one series, quantity by quantity.
 class Look {
 public:
     Look(const Scene& scene, const SamplingSettings& settings, const SampleRanges& ranges, const SeriesMoments::Result& result)
@@ -248,7 +247,7 @@ private:
     Roulette roulette_;
     double rest_probability_;
     std::vector<Rgb> bounds_;
-    // the largest sample in the picture of this quantity; and of this or else of an earlier one
+    // The largest sample in the picture of this quantity; and of this or else of an earlier one.
     Rgb met_{0.0}, largest_{0.0};
     Image lights_, albedo_;
 };

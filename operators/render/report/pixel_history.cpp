@@ -20,7 +20,6 @@ struct NoOne : PathObserver {
     void step(std::uint32_t, const PathStep&) override {}
 };
 
-// All samples of a pixel in a replicate, and their mean.
 struct OfReplicate {
     std::vector<Rgb> samples, mean;
 };

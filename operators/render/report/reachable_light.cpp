@@ -14,7 +14,7 @@ namespace neumann {
 
 namespace {
 
-// differ from the seeds of the pictures
+// The streams differ from the seeds of the pictures.
 constexpr std::uint64_t albedo_stream = 0x616c6265646full, light_stream = 0x6c6967687473ull;
 constexpr std::uint64_t rays_of_pixel = 8, points_on_lights = 4096;
 

@@ -37,7 +37,7 @@ std::vector<Remedy> remedies(const Scene& scene, const PictureSampler& sampler, 
     if (auto of_method = settings.method->remedies(scene, rest)) return std::move(*of_method);
     const std::vector<bool> is_delta = deltas_of_largest(replay(sampler, name), quantity);
     const auto scatters = [](bool delta) { return !delta; };
-    // behind the last that is not a delta
+    // The place behind the last reflection that is not by a delta lobe.
     const auto last = std::find_if(is_delta.rbegin(), is_delta.rend(), scatters).base();
     if (last == is_delta.begin()) return {};
     const bool is_asked = settings.walk.direct.direct == DirectLight::mis;

@@ -22,10 +22,9 @@ struct ReplayedStep {
 bool is_finite(const ReplayedStep& step);
 
 struct Replay {
-    // with photon maps followed by the path of the photon that brings most, up to its place; with a cache by the
-    // brightest ray of the record that brings most
+    // A photon map is followed by the path of the photon that brings most, a cache by the brightest ray of the record
+    // that brings most.
     std::vector<ReplayedStep> steps;
-    // where it lies; with a cache by the brightest ray of the record that brings most
     // The contributions to the sample's own pixel, bounces 0 … N and the rest, with the bits of the render; zero if all
     // contributions are from paths that start at lights.
     std::vector<Rgb> terms;

@@ -12,7 +12,7 @@ namespace neumann {
 
 struct BounceReport {
     MeanWithError mean;  // radiance of K^i Le, over pixels and channels
-    // mean divided by that of the previous bounce, an estimate; none if the previous mean is zero
+    // Mean divided by that of the previous bounce, an estimate; none if the previous mean is zero.
     std::optional<double> ratio;
     double bound;                    // a-priori bound on ‖Σ_{k>i} K^k Le‖∞; infinite if there is none
     bool infinite_variance = false;  // then `mean` has no interval
