@@ -30,7 +30,7 @@ struct OptionWords {
     // The spelling on the command line: "--spp", or "-n" with a letter, or "SCENE" if it stands by itself.
     char letter = 0;
     bool stands_alone = false, is_required = false;
-    std::pair<int, int> count{0, 0};           // number of texts, for an option that stands alone and has several; 0: any
+    std::pair<int, int> count{0, 0};           // number of texts, if several stand alone; 0: any
     char comma = 0;                            // the separator of several values
     std::optional<std::string> bare = {};      // the meaning without a value
     std::vector<std::string> excludes, needs;  // names of other options

@@ -17,7 +17,7 @@ namespace neumann {
 
 struct BlameSettings {
     std::optional<Counting> counting = {};      // how the other renderer counts; chosen by the data if it is not given
-    double seconds = 20.0;                      // for our own terms; the pictures of mistakes take at most as long again
+    double seconds = 20.0;                      // for our own terms; those of mistakes take at most as long again
     std::optional<std::uint64_t> samples = {};  // a pixel, in place of the seconds
     std::uint64_t seed = 0;
 };

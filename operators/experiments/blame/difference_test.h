@@ -23,7 +23,7 @@ struct BlockDifferences {
 };
 
 struct DifferenceTest {
-    double p = 1.0;            // the probability of a difference at least as large, for all channels and blocks together
+    double p = 1.0;            // the probability of a difference so large, for all channels and blocks together
     double ratio = 1.0;        // mean of the first picture divided by that of the second
     double ratio_error = 0.0;  // standard error
 };

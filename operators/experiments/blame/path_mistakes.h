@@ -47,7 +47,7 @@ const char* describe(Mistake mistake);
 
 struct WrongTerms {
     Mistake mistake;
-    bool without_hits = false;        // direct light is by light samples alone; otherwise by multiple importance sampling
+    bool without_hits = false;        // direct light by light samples alone, not by multiple importance sampling
     double limit = 0.0;               // for `clamped`: the limit in units of the mean of the first range
     std::vector<PictureNoise> terms;  // for each of the ranges
 };

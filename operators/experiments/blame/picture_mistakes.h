@@ -28,7 +28,7 @@ struct ComparedTerm {
     BounceRange bounces;
     PictureNoise theirs, ours;
     std::optional<Image> half_difference;  // half the difference of their two pictures
-    Image left_open;                       // the variance that our few samples leave open in each pixel, beyond what they show
+    Image left_open;                       // variance that our few samples leave open in each pixel, beyond their spread
     Image our_sum_before, our_sum;         // Σ K^k Le over the bounces before the range, and up to its end
 };
 

@@ -1,7 +1,7 @@
 // Slow series added up naively and with compensation, in float and in double, compared with the bounds on their errors.
 // u = ε/2 is the unit roundoff.
 //
-//     each term from the previous one    u ρ/(1−ρ)      for the sum: term k has k roundings, and the mean of k is ρ/(1−ρ)
+//     each term from the previous one    u ρ/(1−ρ)      for the sum: term k has k roundings, on average ρ/(1−ρ)
 //     added one after another            u n            for n terms, or until the sum stops changing
 //     added with compensation            2 u
 //

@@ -58,7 +58,7 @@ Estimate FieldPictures::picture(std::size_t first, std::size_t last) const {
     return result;
 }
 
-// At the edges of lit areas replicates agree by chance, because equally many of their samples meet the light. The
+// At the edges of visible shapes replicates agree by chance, as equally many of their samples meet the shape. The
 // neighbouring pixels show how much one sample more or less changes.
 void FieldPictures::raise_errors(const std::vector<SampleRange>& ranges, Estimate& picture) const {
     const double t = student_t_quantile(0.95, replicates_ - 1.0);

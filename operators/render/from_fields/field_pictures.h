@@ -28,7 +28,7 @@ struct FieldSettings {
     Patching patching;
     std::uint32_t rays = 32;           // rays of T per facet and replicate; a power of two
     std::uint32_t light_samples = 16;  // light samples for b per facet and replicate; a power of two
-    std::uint32_t samples = 2;         // camera samples per pixel and replicate; a power of two. As many more estimate We
+    std::uint32_t samples = 2;         // camera samples per pixel and replicate; a power of two. As many again estimate We
     std::uint32_t gather_rays = 4;     // per camera sample; a power of two
     std::uint32_t replicates = 4;
     std::uint64_t seed = 0;

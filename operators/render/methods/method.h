@@ -97,7 +97,7 @@ struct Walk : PathOptions {
     Split split = {};
     std::optional<LeastError> adaptive = {};  // pixels have different numbers of samples, to make this error least
     bool reuse = false;                       // walks of neighbouring pixels use each other's tails
-    std::optional<TreeGoal> tree = {};        // the walk splits and ends by the best numbers for its depths, for this goal
+    std::optional<TreeGoal> tree = {};        // the walk splits and ends by the best numbers for this goal
 
     void expect_sense(bool lights) const;
     std::optional<Decisions> leaves_out() const;

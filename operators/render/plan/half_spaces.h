@@ -15,7 +15,7 @@ struct ConvexBody {
     // because the segment between them lies inside the body.
     bool found = false;
     bool fronts_face_inwards = false;  // whether the fronts of all surfaces do
-    bool is_closed = false;            // whether surfaces are seen in all directions from inside, unless some surfaces overlap
+    bool is_closed = false;            // surfaces are seen in all directions from inside, unless some overlap
 };
 
 // Keeps a reference to the geometry.

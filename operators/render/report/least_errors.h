@@ -2,11 +2,10 @@
 // agree by chance, so the standard error of a pixel is at least h/t, where t belongs to the 95% interval and h is the
 // larger of
 //
-//     what one sample more or less leaves open (one_sample_more.h); if replicates do not agree, not in bounces from 2 on by photons
-//     and records, whose samples are means of many
-//
-//     what few events leave open (few_events.h), if no sample is negative: a path that brings much is an event, and so is a chain's
-//     stay
+//     what one sample more or less leaves open (one_sample_more.h); not in bounces from 2 on by photons and records, whose
+//     samples are means of many, unless replicates agree
+//     what few events leave open (few_events.h), if no sample is negative: a path that brings much is an event, and so is
+//     a chain's stay
 //
 // D is the largest minus the smallest sample of the pixel and its eight neighbours. If these are all 0 but light may be
 // there, D is the largest sample of this bounce in the picture; failing that, of an earlier bounce, or ‖Le‖∞ a^i, where
