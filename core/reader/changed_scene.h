@@ -1,4 +1,4 @@
-// Scenes of which there is no file, or that are a file with changes.
+// Scenes that exist in memory only, or that are a scene file with changes.
 #pragma once
 
 #include "core/reader/read_scene.h"
@@ -11,11 +11,11 @@ namespace neumann {
 
 struct SceneChanges {
     std::shared_ptr<const reader::RawScene> in_memory = {};  // the scene, in place of the file
-    std::vector<reader::Edit> edits = {};                    // in this order
+    std::vector<reader::Edit> edits = {};                    // applied in this order
 };
 
-// As read_scene_parts(path, …). The hash is that of the scene with its changes. Files that a scene in memory names are searched
-// from the current folder.
+// Reads a scene with these changes, otherwise as read_scene_parts(path, …) does. The hash covers the changes. Files
+// that a scene in memory names are searched for from the current folder.
 SceneParts read_scene_parts(const std::string& path, const std::map<std::string, std::string>& definitions, const Reading& reading,
                             const SceneChanges& changes);
 

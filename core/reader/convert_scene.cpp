@@ -34,7 +34,7 @@ std::string bytes_of(const std::string& path) {
     return bytes.str();
 }
 
-// As a `bitmap` reads it again: bytes as PNG, floats as OpenEXR.
+// The picture as a file that a `bitmap` reads: PNG for bytes, OpenEXR for floats.
 std::string encode(const Texels& texels) {
     const bool is_grey = texels.channels == 1;
     const auto value = [&](const auto& values, int x, int y, int c) {
@@ -56,7 +56,7 @@ std::string encode(const Texels& texels) {
     return encode_exr(picture);
 }
 
-// Gives every file that a scene names a place beside it.
+// Gives every file that a scene names a place beside the scene.
 class FilesBeside {
 public:
     FilesBeside(const Document& document, std::map<std::string, std::string>& files) : document_(document), files_(files) {}
@@ -93,10 +93,10 @@ private:
 
     const Document& document_;
     std::map<std::string, std::string>& files_;
-    std::map<std::string, std::string> names_;  // by what they were called
+    std::map<std::string, std::string> names_;  // the new names, by path or by name in memory
 };
 
-// Removes what refers to elements that a lenient reader left out.
+// Removes references to elements that a lenient reader left out.
 void drop_references(Element& e, std::set<std::string>& lost) {
     std::erase_if(e.children, [&](const Element& child) {
         const Attribute* id = child.tag == "ref" || child.tag == "alias" ? child.find("id") : nullptr;
@@ -107,7 +107,7 @@ void drop_references(Element& e, std::set<std::string>& lost) {
     for (Element& child : e.children) drop_references(child, lost);
 }
 
-// What is read here and not by Mitsuba 3.
+// Warns of what Mitsuba 3 does not have.
 void warn_of_others(const Element& e, Warnings& warnings) {
     constexpr std::string_view others[] = {"bsdf coating", "bsdf mixturebsdf", "bsdf phong",          "bsdf retroreflector",
                                            "bsdf ward",    "texture scale",    "texture vertexcolors"};

@@ -1,4 +1,4 @@
-// A scene of any format as a Mitsuba 3 file.
+// Converts a scene of any format to a Mitsuba 3 file.
 #pragma once
 
 #include "core/base/warnings.h"
@@ -10,13 +10,13 @@ namespace neumann {
 
 struct ConvertedScene {
     std::string xml;
-    std::map<std::string, std::string> files;  // that it names, by their paths relative to it
+    std::map<std::string, std::string> files;  // the files that `xml` names, by their paths relative to it
     Warnings warnings;
 };
 
-// The scene is read whole first, so it is one that read_scene() takes; throws InputError as that does. What a file includes is put
-// in, and so are its parameters. With `lenient`, plugins and parameters that
-// are not known stay in the file as they are, elements that are not known do not. Meshes and pictures come along.
+// Reads the scene as a whole first, so only a scene that read_scene() takes is converted; throws InputError as that
+// does. Included files and the values of parameters are put in, and meshes and pictures come along. With `lenient`,
+// unknown plugins and parameters stay in the file as they are, and unknown elements do not.
 ConvertedScene convert_scene(const std::string& path, const std::map<std::string, std::string>& definitions = {},
                              bool lenient = false);
 

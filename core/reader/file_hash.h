@@ -7,8 +7,8 @@
 
 namespace neumann::reader {
 
-// "xxh3-128:" and 32 hexadecimal digits: a hash of the contents of all files in order, and of what is in no file. Throws InputError
-// if a file cannot be read.
+// "xxh3-128:" and 32 hexadecimal digits: a hash of the contents of all files, in order, and of `text`. Throws
+// InputError if a file cannot be read.
 std::string hash_files(const std::vector<std::string>& paths, std::string_view text = {});
 
 }  // namespace neumann::reader

@@ -1,4 +1,4 @@
-// Reads a scene file of any format, by its ending.
+// Reads a scene file of any format.
 #pragma once
 
 #include "core/base/warnings.h"
@@ -10,8 +10,8 @@
 
 namespace neumann::reader {
 
-// Adds errors to `problems` and goes on without what is wrong. Throws InputError where the file cannot be read as a scene at all,
-// and says what it is if it is something else. `definitions`: of -D.
+// Adds errors to `problems` and reads on without what is wrong. Throws InputError if the file cannot be read as a scene
+// at all, and says what it is if it is something else. `definitions` are those of -D.
 RawScene read_raw_scene(const std::string& path, const NamedValues& definitions, Warnings& warnings, Problems& problems);
 
 }  // namespace neumann::reader

@@ -48,7 +48,7 @@ ReadSensor read_only_sensor(const Element& root, const Context& context, const s
     for (const ReadShape& shape : shapes)
         if (!sensor && shape.sensor) sensor = shape.sensor;
     if (!sensor) {
-        // An element that could not be read may have been the one.
+        // The element that could not be read may have been the sensor.
         for (const Element& e : root.children)
             if (e.broken && !is_object(e.tag)) throw Told();
         if (has_sensor(root) && problems.any()) throw Told();
@@ -64,7 +64,7 @@ ReadSensor read_only_sensor(const Element& root, const Context& context, const s
 }
 
 Origin origin(const Element& shape, const Element* bsdf) {
-    // By its id, or else by its type.
+    // An object is named by its id, or else by its type.
     const auto title = [](const Element& e) {
         const Attribute* id = e.find("id");
         return fmt::format("{} '{}'", e.tag, id ? id->value : e.attribute("type").value);
@@ -72,7 +72,8 @@ Origin origin(const Element& shape, const Element* bsdf) {
     return {shape.place, title(shape), bsdf ? title(*bsdf) : "default bsdf"};
 }
 
-// Checks objects that nothing refers to, objects in shapes, and the contents of elements that could not be read; they are not used.
+// Checks what the picture does not depend on: objects to which nothing refers, objects in shapes, and the contents of
+// elements that could not be read.
 class Unused {
 public:
     Unused(const Context& context, const Bsdfs& bsdfs, const AreaLights& lights)

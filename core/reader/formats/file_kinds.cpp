@@ -18,8 +18,8 @@ namespace neumann::reader {
 namespace {
 
 struct Kind {
-    std::string_view ending, beginning;  // the second: bytes that no other kind begins with, or empty
-    std::string_view what;               // "a Blender file"
+    std::string_view ending, beginning;  // `beginning`: bytes that no other kind begins with, or empty
+    std::string_view what;               // such as "a Blender file"
     std::string_view remedy;
 };
 
@@ -101,7 +101,7 @@ SceneFormat scene_format(const std::string& path) {
     if (ending == ".gltf" || ending == ".glb") return SceneFormat::gltf;
     if (ending == ".pbrt") return SceneFormat::pbrt;
     if (ending == ".json") return SceneFormat::tungsten;
-    // Of the others, and of XML, what it begins with says more.
+    // The first bytes tell more than .xml or any other ending.
     if (beginning.starts_with("glTF")) return SceneFormat::gltf;
     if (beginning.find("<COLLADA") != std::string::npos) return SceneFormat::collada;
     const std::size_t first = beginning.find_first_not_of("\xEF\xBB\xBF \t\r\n");

@@ -1,4 +1,4 @@
-// What a file is, by its ending and by how it begins.
+// Tells the format of a scene file from its ending and its first bytes.
 #pragma once
 
 #include <string>
@@ -7,7 +7,8 @@ namespace neumann::reader {
 
 enum class SceneFormat { mitsuba, collada, gltf, pbrt, tungsten };
 
-// Throws InputError, with what the file is and what can be done about it, where it is known to be something else than a scene.
+// Throws InputError if the file is known to be something else than a scene, and says what it is and what can be done
+// about it.
 SceneFormat scene_format(const std::string& path);
 
 }  // namespace neumann::reader

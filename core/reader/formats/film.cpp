@@ -16,7 +16,7 @@ std::string pixels(double size) {
     return std::to_string(std::lround(std::clamp(size, 1.0, most)));
 }
 
-// Nothing if it is no whole number above 0, which the film tells.
+// The definition, or nothing if it is no whole number above 0, which the reader of the film reports.
 std::optional<double> defined(const NamedValues& definitions, const std::string& name) {
     const auto found = definitions.find(name);
     if (found == definitions.end()) return std::nullopt;

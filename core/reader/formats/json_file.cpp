@@ -19,11 +19,11 @@ Location place_in(const std::string& path, std::string_view text, std::size_t of
             static_cast<int>(before.size() - line_start) + 1};
 }
 
-// What the library says beside its own name and the place.
+// The message of the JSON library without the library's name and the place, which begin it.
 std::string reason(const std::exception& e) {
     const std::string_view what = e.what(), mark = ": ";
     const std::size_t at = what.find(mark);
-    constexpr std::size_t longest = 120;  // it quotes what it has read last
+    constexpr std::size_t longest = 120;  // the message quotes the text read last
     return printable(at == std::string_view::npos ? what : what.substr(at + mark.size()), longest);
 }
 
@@ -43,7 +43,7 @@ nlohmann::json parse_json(const std::string& path, std::string_view text) {
 std::string read_bytes(const std::string& path, const Location& place) {
     const std::string expected = place.pointer.empty() ? "a scene file" : "a file";
     if (const auto why = why_not_input(path, expected)) {
-        // The scene file itself needs no name beside its place.
+        // The place names the scene file already.
         if (place.pointer.empty()) throw InputError(place, *why);
         std::error_code error;
         if (!std::filesystem::exists(path, error)) throw InputError(place, fmt::format("there is no file '{}'", path));

@@ -1,4 +1,4 @@
-// The bytes of files, and JSON in them.
+// Reads the bytes of files, and parses JSON.
 #pragma once
 
 #include "core/base/error.h"
@@ -10,10 +10,10 @@
 
 namespace neumann::reader {
 
-// Throws InputError at the place: no such file, a folder or a device, not readable.
+// Throws InputError at `place` if the file does not exist, is a folder or a device, or cannot be read.
 std::string read_bytes(const std::string& path, const Location& place);
 
-// Throws InputError with the line and the column. A byte order mark of UTF-8 may stand before it.
+// Throws InputError with the line and the column. The text may begin with a byte order mark of UTF-8.
 nlohmann::json parse_json(const std::string& path, std::string_view text);
 
 }  // namespace neumann::reader

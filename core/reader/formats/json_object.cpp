@@ -11,7 +11,7 @@ namespace neumann::reader {
 
 namespace {
 
-// RFC 6901.
+// Escapes a name in a JSON pointer (RFC 6901).
 std::string escaped(const std::string& name) {
     std::string result;
     for (const char c : name) result += c == '~' ? "~0" : c == '/' ? "~1" : std::string(1, c);
@@ -74,7 +74,7 @@ double JsonObject::number(const std::string& name, double missing, Range range) 
 std::optional<std::int64_t> JsonObject::integer(const std::string& name, std::int64_t least, std::int64_t most) {
     const nlohmann::json* found = find(name, &nlohmann::json::is_number, "a whole number");
     if (!found) return std::nullopt;
-    const double value = found->get<double>();  // "3.0" is whole, too
+    const double value = found->get<double>();  // "3.0" is a whole number, too
     if (value == std::floor(value) && value >= static_cast<double>(least) && value <= static_cast<double>(most))
         return static_cast<std::int64_t>(value);
     complain(name, fmt::format("{} is {}, expected a whole number from {} to {}", name, value, least, most));

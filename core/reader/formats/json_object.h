@@ -1,6 +1,6 @@
-// The objects and arrays of a JSON file, with their places. Whoever reads an object asks for the properties that it knows;
-// finish() then tells of the others, so that nothing is skipped in silence. A property that is wrong is added to the problems and
-// counts as missing, and the others are read as well.
+// The objects and arrays of a JSON file, with their places. The reader of an object asks for the properties that it
+// knows; finish() reports all others, so that nothing is skipped silently. A property that is wrong is added to the
+// problems and counts as missing, and the others are read as well.
 #pragma once
 
 #include "core/base/vec.h"
@@ -19,23 +19,24 @@
 
 namespace neumann::reader {
 
-// Where problems and warnings of a file go.
+// Where the problems and warnings of a file go.
 struct Notes {
     Warnings& warnings;
     Problems& problems;
-    // Of glTF, whose objects may have `extensions` and `extras`: whether an extension changes no picture. Null for other languages.
+    // Whether an extension of glTF changes no picture; null for formats whose objects have no `extensions` and
+    // `extras`.
     bool (*has_no_effect)(const std::string& extension) = nullptr;
-    std::set<std::string> extensions = {};  // unknown ones that have been told
-    std::set<std::string> refused = {};     // those that the file requires, among them
+    std::set<std::string> extensions = {};  // unknown ones that have been reported
+    std::set<std::string> refused = {};     // those among them that the file requires
 
     void left_out(const std::string& extension);
 };
 
-// A place below another: its pointer, and this name or index in it.
+// The place of a property or an element of the value at `place`.
 Location below(const Location& place, const std::string& name);
 Location below(const Location& place, std::size_t index);
 
-// "a number", "an array", "null": what a value is.
+// What kind of value it is: "a number", "an array", "null".
 std::string with_article(const nlohmann::json& value);
 
 struct Range {
@@ -54,9 +55,9 @@ public:
     std::size_t size() const { return array_ ? array_->size() : 0; }
     Location place_of(std::size_t i) const { return below(place_, i); }
     const nlohmann::json& operator[](std::size_t i) const { return (*array_)[i]; }
-    // Throws InputError if it is none.
+    // Throws InputError if the element is no object.
     JsonObject object(std::size_t i) const;
-    // It was there, but is no array.
+    // Whether it was there, but is no array.
     bool broken() const { return broken_; }
 
 private:
@@ -81,32 +82,32 @@ public:
     std::optional<std::int64_t> integer(const std::string& name, std::int64_t least, std::int64_t most);
     bool boolean(const std::string& name, bool missing);
     std::optional<std::string> text(const std::string& name);
-    // As many numbers as `missing` has.
+    // Returns as many numbers as `missing` has.
     std::vector<double> numbers(const std::string& name, std::vector<double> missing, Range range = {});
     Rgb color(const std::string& name, double missing, Range range);
 
-    // Of any kind, or null.
+    // The property, of any kind, or null.
     const nlohmann::json* value(const std::string& name);
     std::optional<JsonObject> object(const std::string& name);
     JsonList list(const std::string& name);
     std::optional<JsonObject> extension(const std::string& name);
-    // The element of a list that an index means.
+    // The index in the property, which must be one of the list.
     std::optional<std::size_t> index(const std::string& name, const JsonList& list, const std::string& what);
-    // The indices of several.
+    // The indices in the property, an array; each must be one of the list.
     std::vector<std::size_t> indices(const std::string& name, const JsonList& list, const std::string& what);
 
-    // Throws InputError, or Told if the property is there and wrong.
+    // Throws InputError, or Told if the property is there but wrong.
     [[noreturn]] void fail_missing(const std::string& name, const std::string& expected) const;
     bool is_wrong(const std::string& name) const { return wrong_.count(name) > 0; }
-    // Adds the problem at the property.
+    // Adds a problem at the property.
     void complain(const std::string& name, const std::string& what);
-    // Properties that have no effect on a picture.
+    // Accepts properties that have no effect on a picture.
     void ignore(std::initializer_list<std::string> names);
     std::vector<std::string> names() const;
     void finish();
 
 private:
-    // A property of one of the kinds, or null.
+    // The property, or null if it is missing or, which is a problem, of another kind.
     const nlohmann::json* find(const std::string& name, bool (nlohmann::json::*is)() const noexcept, const char* kind);
 
     const nlohmann::json* value_;
@@ -116,7 +117,7 @@ private:
     std::set<std::string> wrong_;
 };
 
-// Whether an index is one of a list's; otherwise adds the problem, unless the list itself has one.
+// Whether the value is an index of the list; otherwise adds a problem, unless the list is broken itself.
 bool is_index(const nlohmann::json& value, const JsonList& list, const std::string& what, const Location& place, Notes& notes);
 
 }  // namespace neumann::reader

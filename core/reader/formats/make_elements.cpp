@@ -29,7 +29,7 @@ void add_default(Element& scene, const std::string& definition, const std::strin
     Element given{"default", {{"name", definition, place}, {"value", as_it_is(value), place}}, {}, place};
     const auto others =
         std::find_if(scene.children.begin(), scene.children.end(), [](const Element& e) { return e.tag != "default"; });
-    scene.children.insert(others, std::move(given));  // before what uses it
+    scene.children.insert(others, std::move(given));  // before the elements that use it
 }
 
 std::string numbers(std::initializer_list<double> values) {

@@ -1,5 +1,5 @@
-// Makes the elements of a scene, for importers. Each has the place in the importer's own file from which it comes, so that what is
-// wrong with it is told there. Texts are taken as they are: a $ in them is no parameter.
+// Makes the elements of a scene, for importers. Each has the place in the importer's own file from which it comes, so
+// that problems are reported there. Texts are taken literally: a $ in them is no parameter.
 #pragma once
 
 #include "core/base/vec.h"
@@ -10,16 +10,16 @@
 
 namespace neumann::reader {
 
-// <scene version="3.0.0">.
+// The element <scene version="3.0.0">.
 Element make_scene_element(const Location& place);
-// An object such as <bsdf type="diffuse" id="wall">; without an id where that is empty.
+// An object such as <bsdf type="diffuse" id="wall">; without an id if that is empty.
 Element make_object(const std::string& tag, const std::string& type, const Location& place, const std::string& id = "");
-// Adds a child, and returns it until the next is added.
+// Adds a child and returns it; the reference is valid until the next child is added.
 Element& add(Element& parent, Element child);
-// The object with this id, as a parameter of this name unless that is empty.
+// Adds a reference to the object with this id, as a parameter of this name unless the name is empty.
 void add_reference(Element& parent, const std::string& id, const Location& place, const std::string& name = "");
 
-// Parameters. Numbers are written so that they are read as the same.
+// These add parameters. Numbers are written so that the same numbers are read back.
 void add_float(Element& parent, const std::string& name, double value, const Location& place);
 void add_integer(Element& parent, const std::string& name, std::int64_t value, const Location& place);
 void add_boolean(Element& parent, const std::string& name, bool value, const Location& place);
@@ -29,16 +29,16 @@ void add_point(Element& parent, const std::string& name, const Vec3& value, cons
 void add_vector(Element& parent, const std::string& name, const Vec3& value, const Location& place);
 void add_matrix(Element& parent, const std::string& name, const Mat4& value, const Location& place);
 
-// A parameter that -D sets, with the value that it has without: <integer name="width" value="$width"/> and, in the scene,
-// <default name="width" value="768"/>. `tag`: "integer" or the like.
+// Adds a parameter that -D can set, with its value otherwise: <integer name="width" value="$width"/> and, in the scene,
+// <default name="width" value="768"/>. `tag` is "integer" or the like.
 void add_defined(Element& scene, Element& parent, const std::string& tag, const std::string& name, const std::string& definition,
                  const std::string& value, const Location& place);
-// The same for the type of an object.
+// Adds the type of an object, which -D can set.
 void add_defined_type(Element& scene, Element& object, const std::string& definition, const std::string& type);
-// The same for a transform: -D sets the 16 numbers of its matrix, row by row.
+// Adds a transform; -D can set the 16 numbers of its matrix, row by row.
 void add_defined_matrix(Element& scene, Element& parent, const std::string& name, const std::string& definition, const Mat4& value,
                         const Location& place);
-// These 16 numbers, separated by blanks.
+// The 16 numbers of the matrix, row by row, separated by blanks.
 std::string matrix_text(const Mat4& m);
 
 }  // namespace neumann::reader

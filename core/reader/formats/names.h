@@ -1,4 +1,4 @@
-// Names of objects and files, each given once.
+// Gives out names of objects and files, each once.
 #pragma once
 
 #include <map>
@@ -9,12 +9,13 @@ namespace neumann::reader {
 
 class Names {
 public:
-    // The wished name without what files and Mitsuba's ids may not have (a full stop, for one), and with a number if it is taken.
+    // The wished name without characters that files and Mitsuba's ids may not have, such as a full stop, and with a
+    // number if it is taken.
     std::string unique(const std::string& wished);
 
 private:
     std::set<std::string> taken_;
-    std::map<std::string, int> numbers_;  // the last of each name
+    std::map<std::string, int> numbers_;  // the last number of each name
 };
 
 }  // namespace neumann::reader

@@ -1,11 +1,11 @@
-// Characters that URIs write as codes.
+// Decodes the codes of characters in URIs.
 #pragma once
 
 #include <string>
 
 namespace neumann::reader {
 
-// "a%20b" is "a b". What is no code, and %00, stays as it is.
+// Decodes "a%20b" to "a b". What is no code, and %00, stays as it is.
 std::string percent_decoded(const std::string& text);
 
 }  // namespace neumann::reader

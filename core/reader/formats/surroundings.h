@@ -1,4 +1,4 @@
-// The light of a scene whose file has none.
+// Light for a scene whose file has none.
 #pragma once
 
 #include "core/base/warnings.h"
@@ -6,7 +6,7 @@
 
 namespace neumann::reader {
 
-// Adds <emitter type="constant"> of radiance 1, which -D surroundings sets, and warns of it.
+// Adds <emitter type="constant"> of radiance 1, which -D surroundings overrides, and warns of it.
 void add_surroundings(Element& scene, Warnings& warnings);
 
 // Whether there is an <emitter>, in a shape or without one.

@@ -16,20 +16,20 @@ namespace {
 
 constexpr double pi = std::numbers::pi, step_of_bends = pi / sides_of_tubes;
 
-// A polygon around the curve. `normal`: of the surface there, in parts of the radial direction and of the tangent.
+// A polygon around the curve. `normal` is that of the surface, as components along the radius and the tangent.
 struct Ring {
     Vec3 center, tangent;
     double radius;
     Vec2 normal;
     double v;             // texture coordinate along the curve
-    bool begins = false;  // nothing joins it to the one before, which is in the same place
+    bool begins = false;  // not joined to the previous ring, which is in the same place
 };
 
 double bend(const Vec3& a, const Vec3& b) { return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)); }
 
-// Rings one after the other, joined by triangles; the first and the last have no radius and close the tube.
+// Adds rings one after the other, joined by triangles. The first and the last one have the radius 0 and close the tube.
 void add_tube(TriangleMesh& mesh, const std::vector<Ring>& rings) {
-    // So that the perimeter is that of the circle.
+    // The radius is widened so that the perimeter is that of the circle.
     constexpr std::uint32_t stride = sides_of_tubes + 1;
     const double widened = (pi / sides_of_tubes) / std::sin(pi / sides_of_tubes);
     if (mesh.vertices.size() + rings.size() * (sides_of_tubes + 1) > max_mesh_count)
@@ -62,7 +62,7 @@ void add_tube(TriangleMesh& mesh, const std::vector<Ring>& rings) {
     }
 }
 
-// A ball cut by rings, from the pole behind to the widest ring, or from there to the pole ahead.
+// Adds a ball cut by rings, from the pole behind to the widest ring, or from there to the pole ahead.
 void add_round_end(std::vector<Ring>& rings, const ControlPoint& p, const Vec3& tangent, bool ahead, double v) {
     constexpr int steps = sides_of_tubes / 2;
     for (int i = ahead ? 1 : 0; ahead ? i <= steps : i < steps; ++i) {
@@ -100,7 +100,7 @@ public:
         const double s = 1.0 - t;
         return (p_[0] * (-s * s) + p_[1] * (3.0 * t * t - 4.0 * t) - p_[2] * (3.0 * s * s - 4.0 * s) + p_[3] * (t * t)) / 2.0;
     }
-    // The largest second derivative: it is linear in t.
+    // The largest second derivative, which is at one of the ends because it is linear in t.
     double curvature() const {
         return std::max(glm::length(p_[0] - 2.0 * p_[1] + p_[2]), glm::length(p_[1] - 2.0 * p_[2] + p_[3]));
     }
@@ -160,7 +160,7 @@ void add_linear_tube(TriangleMesh& mesh, const Curve& curve) {
         rings.push_back({p[i].position, is_straight ? tangent(i - 1) : t, p[i].radius, {1.0, taper}, v(i), is_straight});
         rings.push_back({p[i + 1].position, t, p[i + 1].radius, {1.0, taper}, v(i + 1)});
         if (i + 1 == pieces) continue;
-        // The outer side of the rings that turn around the joint is a part of a ball.
+        // The rings that turn around the joint form a part of a ball on its outer side.
         const Vec3 next = tangent(i + 1);
         const double angle = bend(t, next);
         const int steps = static_cast<int>(std::ceil(angle / step_of_bends));
@@ -187,7 +187,7 @@ void add_bspline_tube(TriangleMesh& mesh, const Curve& curve, const std::string&
     const auto add = [&](const Piece& piece, double t, double v) {
         const glm::dvec4 at = piece.at(t);
         glm::dvec4 slope = piece.slope(t);
-        // Where points are in the same place, the curve may begin or end with no speed.
+        // Where points coincide, the curve may begin or end with the speed 0.
         if (Vec3(slope) == Vec3(0.0)) slope = piece.slope(t < 0.5 ? t + 1e-4 : t - 1e-4);
         const double speed = length_of(Vec3(slope));
         if (speed > 0.0) rings.push_back({Vec3(at), Vec3(slope) / speed, std::max(at.w, 0.0), {1.0, -slope.w / speed}, v});

@@ -1,4 +1,4 @@
-// The curves of Mitsuba's shapes `linearcurve` and `bsplinecurve`, as closed tubes of triangles.
+// Makes the curves of Mitsuba's shapes `linearcurve` and `bsplinecurve` as closed tubes of triangles.
 #pragma once
 
 #include "core/geometry/shape.h"
@@ -16,21 +16,22 @@ struct ControlPoint {
 
 struct Curve {
     std::vector<ControlPoint> points;
-    std::size_t line = 0;  // of the first one
+    std::size_t line = 0;  // line of the first point in the file
 };
 
-// A line of the file holds a point and a radius, "x y z r"; an empty line begins the next curve. Throws InputError
-// "file:line:column: …" for what is no number, a negative radius, and a curve of fewer than `least` points.
+// Reads a file in which a line holds a point and a radius, "x y z r", and an empty line begins the next curve. Throws
+// InputError "file:line:column: …" for what is no number, a negative radius, or a curve of fewer than `least` points.
 std::vector<Curve> read_curves(const std::string& path, std::size_t least);
 
-// A tube has this many sides, and a straight one the area of the round one: its surface is within (π/12)²/3 = 2.3% of the radius of
-// that. Joints and ends are cut in steps of 15 degrees, and all is within 4%.
+// A tube has this many sides, and a straight one the area of the round one: its surface deviates by up to (π/12)²/3 =
+// 2.3% of the radius. Joints and ends are cut in steps of 15 degrees, and everything is within 4%.
 inline constexpr int sides_of_tubes = 12;
 
 // Adds the tube around straight pieces from point to point, with round joints and round ends.
 void add_linear_tube(TriangleMesh& mesh, const Curve& curve);
-// Adds the tube around the uniform cubic B-spline of the points, with flat ends, in straight pieces that are within a hundredth of
-// the largest radius of the curve. Throws InputError, which begins with `file`, where that would take too many.
+// Adds the tube around the uniform cubic B-spline of the points, with flat ends. It consists of straight pieces that
+// are within a hundredth of the largest radius of the curve. Throws InputError, which begins with `file`, if that takes
+// too many pieces.
 void add_bspline_tube(TriangleMesh& mesh, const Curve& curve, const std::string& file);
 
 }  // namespace neumann

@@ -64,7 +64,7 @@ public:
     }
 
 private:
-    // False at the end of the header.
+    // Reads a statement. Returns false at the end of the header.
     bool statement() {
         if (text_.at_line_end()) {
             if (text_.at_end()) throw InputError(text_.file() + ": ends before 'end_header'");

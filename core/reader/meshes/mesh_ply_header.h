@@ -15,7 +15,7 @@ std::size_t size_of(PlyType type);
 
 struct PlyProperty {
     std::string name;
-    PlyType type;  // of the items of a list
+    PlyType type;  // type of the items, for a list
     bool is_list = false;
     PlyType count_type = PlyType::u8;
     // The role of the property: 0 … 7 for x, y, z, nx, ny, nz and the texture coordinates of a vertex, 0 for the vertex indices of

@@ -1,4 +1,5 @@
-// Shared by the mesh readers: a file in memory, and a cursor over its text that keeps track of line and column.
+// The text of a mesh file in memory, and a cursor over it that keeps track of line and column; shared by the mesh
+// readers.
 #pragma once
 
 #include "core/base/printable.h"
@@ -32,7 +33,7 @@ OpenFile open_mesh_file(const std::string& path);
 
 // "1 vertex", "2 vertices", "2 normals".
 std::string counted(std::size_t count, std::string_view noun);
-// The end of "vertex index 9 …".
+// The end of a message that begins with "vertex index 9".
 std::string out_of_range(std::size_t available, std::string_view noun);
 
 class MeshText {
@@ -78,7 +79,7 @@ public:
     // Whether the cursor is at a line end that is a single CR.
     bool at_lone_cr() const { return !at_end() && *at_ == '\r' && (at_ + 1 == end_ || at_[1] != '\n'); }
 
-    // The text up to the next blank; empty at the end of the line.
+    // Returns the text up to the next blank; empty at the end of the line.
     std::string_view token() {
         at_line_end();
         while (!is_delimiter(at_)) ++at_;
@@ -90,7 +91,7 @@ public:
         return false;
     }
     double number();
-    // `expected` names it: "expected an integer, found '1.5'".
+    // Reads an integer. `expected` names it: "expected an integer, found '1.5'".
     template <class Integer>
     Integer integer(const char* expected);
     // Reads a number as a prefix of a token; returns false and does not move if there is none. begin_token() skips blanks and marks
@@ -117,7 +118,7 @@ public:
 
     [[noreturn]] void fail(const std::string& what) const { fail(place(), what); }
     [[noreturn]] void fail(const Place& place, const std::string& what) const;
-    // "expected …, found 'token'".
+    // Throws InputError "expected …, found 'token'".
     [[noreturn]] void fail_expected(std::string_view expected) const;
 
 private:

@@ -46,7 +46,8 @@ public:
     std::uint32_t resolve(std::int64_t index, std::size_t count, const MeshText::Place& place) {
         const auto signed_count = static_cast<std::int64_t>(count);
         if (index > signed_count) {
-            // Later elements may make it valid. Only indices larger than all before are kept: one of them is the first invalid one.
+            // Elements that follow may make the index valid. Only indices larger than all before are kept: one of them
+            // is the first invalid one.
             if (ahead_.empty() || index > ahead_.back().index) ahead_.push_back({index, place});
             return static_cast<std::uint32_t>(index - 1);
         }
@@ -120,7 +121,8 @@ private:
         text_.next_line();
     }
 
-    // Lines and points have no area; the others are names, groups and materials, which come from the scene file.
+    // Lines and points have no area; the others are names, groups and materials, and materials come from the scene
+    // file.
     static bool is_ignored(std::string_view keyword) {
         for (const std::string_view ignored : {"l", "p", "g", "o", "s", "mtllib", "usemtl"}) {
             if (keyword == ignored) return true;
@@ -139,13 +141,13 @@ private:
 
     void vertex() {
         vertices_.push_back(finite_triple("vertex"));
-        // Skips a weight, which matters for free-form geometry only, or a colour.
+        // These numbers are a weight, which matters for free-form geometry only, or a colour.
         for (int i = 0; i < 4 && !text_.at_line_end(); ++i) text_.number();
     }
 
     void normal() { normals_.push_back(finite_triple("normal")); }
 
-    // One, two or three numbers; the second is 0 if it is missing.
+    // Reads one, two or three numbers; the second is 0 if it is missing.
     void coordinates() {
         Vec2 uv(0.0);
         for (int i = 0; i < 3 && (i == 0 || !text_.at_line_end()); ++i) {
@@ -156,7 +158,7 @@ private:
         coordinates_.push_back(uv);
     }
 
-    // v, v/vt, v//vn or v/vt/vn.
+    // Reads v, v/vt, v//vn or v/vt/vn.
     Corner corner() {
         constexpr auto expected = "a vertex as v, v/vt, v//vn or v/vt/vn";
         text_.begin_token();

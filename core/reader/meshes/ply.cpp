@@ -27,7 +27,7 @@ static_assert(std::endian::native == std::endian::little || std::endian::native 
 // Thrown if the body ends within a row; the caller adds which one.
 struct Ended {};
 
-// The rows of the body, one element a line.
+// Reads the rows of an ASCII body, one element a line.
 class AsciiRows {
 public:
     explicit AsciiRows(MeshText& text) : text_(text) {}
@@ -69,7 +69,7 @@ private:
     MeshText& text_;
 };
 
-// The rows of the body in the bytes of either order.
+// Reads the rows of a binary body in either byte order.
 template <std::endian order>
 class BinaryRows {
 public:
@@ -328,7 +328,8 @@ private:
     const std::string& file_;
     MeshFile result_;
     std::vector<Fan> fans_;
-    // For the element being read: the index of its first attribute in the mesh, and the values of the row.
+    // The index in the mesh of the first attribute of the element being read, and the attributes' values in the current
+    // row.
     std::size_t first_attribute_ = 0;
     std::vector<std::array<float, 3>> row_;
 };

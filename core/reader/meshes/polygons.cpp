@@ -17,7 +17,7 @@ bool is_within(const Vec2& p, const Vec2& a, const Vec2& b, const Vec2& c) {
 }
 
 bool turns_back(const std::vector<Vec2>& p) {
-    // Radians; less is rounding in the file.
+    // In radians; less is rounding in the file.
     constexpr double least = 1e-5;
     for (std::size_t i = 0; i < p.size(); ++i) {
         const Vec2 &a = p[i], &b = p[(i + 1) % p.size()], &c = p[(i + 2) % p.size()];
@@ -26,10 +26,10 @@ bool turns_back(const std::vector<Vec2>& p) {
     return false;
 }
 
-// One polygon after the other, in the same memory.
+// Cuts one polygon after the other, in the same memory.
 class EarCutter {
 public:
-    // Triangles of the corners' numbers; empty where a fan is right, or nothing is.
+    // Returns triangles of the corners' numbers; empty if a fan is right, or nothing is.
     const CornerTriples& cut(const std::vector<Vec3>& corners) {
         triangles_.clear();
         if (see_from_above(corners) && turns_back(flat_)) cut_ears();
@@ -37,7 +37,8 @@ public:
     }
 
 private:
-    // From the side from which the polygon is counter-clockwise, as a whole. False if it has no area.
+    // Projects the polygon as seen from the side from which it is counter-clockwise as a whole. Returns false if it has
+    // no area.
     bool see_from_above(const std::vector<Vec3>& corners) {
         double size = 0.0;
         for (const Vec3& p : corners) size = std::max(size, max_component(glm::abs(p - corners[0])));
@@ -88,7 +89,7 @@ private:
     CornerTriples triangles_;
 };
 
-// In the memory of `outline`.
+// Finds the outline in the memory of `outline`.
 void find_outline(const Fan& fan, const CornerTriples& triangles, std::vector<std::uint32_t>& outline) {
     outline = {triangles[fan.first_triangle][0], triangles[fan.first_triangle][1]};
     for (std::size_t i = 0; i + 2 < fan.corners; ++i) outline.push_back(triangles[fan.first_triangle + i][2]);

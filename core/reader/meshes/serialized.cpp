@@ -32,10 +32,10 @@ constexpr std::uint32_t all_flags = has_normals | has_uv | has_colors | face_nor
 // zlib makes at most 1032 bytes of one (its technical details).
 constexpr std::uint64_t largest_ratio = 1032;
 
-// The bytes of one mesh, uncompressed.
+// Decompresses the bytes of one mesh.
 class Inflater {
 public:
-    // The file stands at `offset`.
+    // The file must be positioned at `offset`.
     Inflater(std::FILE* file, std::uint64_t offset, const std::string& mesh) : file_(file), offset_(offset), mesh_(mesh) {
         if (inflateInit(&stream_) != Z_OK) throw RunError("zlib could not be started");
     }

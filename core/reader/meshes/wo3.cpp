@@ -60,7 +60,7 @@ private:
         return value;
     }
 
-    // Of what follows, `size` bytes each, which is there.
+    // Reads the number of the items that follow, of `size` bytes each, and checks that they are there.
     std::uint64_t count(const char* noun, std::size_t size) {
         if (bytes_.size() - at_ < sizeof(std::uint64_t))
             throw InputError(fmt::format("{}: the file ends after {} bytes, before it says how many {} follow", path_,

@@ -13,10 +13,10 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little);
 
-// Numbers of a vertex or a triangle that are written together: their names, and the i-th one's values.
+// Properties of a vertex or a triangle that are written together.
 struct Column {
     std::vector<std::string> names;
-    std::function<double(std::size_t, std::size_t)> value;  // of an element, by its number and that of the name
+    std::function<double(std::size_t, std::size_t)> value;  // of element i, for the j-th name
 };
 
 template <class T>
@@ -33,7 +33,7 @@ bool are_floats(const Column& column, std::size_t count) {
     return true;
 }
 
-// vertex_color is r, g, b; vertex_p_color is p_r, p_g, p_b; vertex_p is p_0, p_1, p_2.
+// The properties of vertex_color are r, g, b; of vertex_p_color p_r, p_g, p_b; of vertex_p p_0, p_1, p_2.
 Column attribute_column(const MeshAttribute& attribute) {
     constexpr std::string_view color = "color";
     const std::string name = attribute.name.substr(attribute.name.find('_') + 1);

@@ -1,4 +1,4 @@
-// <emitter type="area"> and "directionalarea", on its own or on a shape.
+// Reads <emitter type="area"> and "directionalarea", on its own or on a shape.
 #pragma once
 
 #include "core/emitter/emitters.h"
@@ -6,7 +6,7 @@
 
 namespace neumann::reader {
 
-// Whether an <emitter> is one that only shapes have.
+// Whether an <emitter> is of a type that only shapes have.
 inline bool is_of_shapes(const Element& e) {
     const std::string& type = e.attribute("type").value;
     return type == "area" || type == "directionalarea";
@@ -16,9 +16,9 @@ class AreaLights {
 public:
     explicit AreaLights(const Context& context) : context_(context) {}
 
-    // Index of the light; each element is stored once. None for a light with an error.
+    // The index of the light, or none for a light with an error. Each element is stored once.
     int index(const Element& e);
-    // The same for a shape that has it.
+    // The same for a light of this shape.
     int index(const Element& e, const Shape& shape);
 
     bool has(const Element& e) const { return index_.count(&e) > 0; }

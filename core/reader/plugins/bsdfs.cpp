@@ -24,7 +24,7 @@ Diffuse read_diffuse(const Element& e, const Context& context) {
     return Diffuse(reflectance);
 }
 
-// `material`, or `eta` and `k`.
+// Reads `material`, or `eta` and `k`.
 ConductorFresnel read_fresnel(Properties& p, const Context& context) {
     const std::string material = p.text("material").value_or("none");
     const Element* eta = p.find("eta", color_types);

@@ -1,4 +1,4 @@
-// <rgb>, <spectrum>, <float> and <integer> as colours.
+// Reads <rgb>, <spectrum>, <float> and <integer> as colours.
 #pragma once
 
 #include "core/base/warnings.h"
@@ -12,7 +12,7 @@ namespace neumann::reader {
 // a reflectance to at most 1. A spectrum of one value is a grey reflectance, or a radiance of equal energy, which is not white.
 // <rgb> and <float> are used unchanged.
 Rgb parse_color(Properties& p, const std::string& name, const Element& e, Illuminant illuminant, Warnings& warnings);
-// η or k of a metal, channel by channel: a list of wavelengths is integrated under D65, and only clipped at 0.
+// Reads η or k of a metal, channel by channel: a list of wavelengths is integrated under D65, and only clipped at 0.
 Rgb parse_metal_index(Properties& p, const std::string& name, const Element& e, Warnings& warnings);
 
 inline const std::vector<std::string> color_types = {"rgb", "spectrum", "float", "integer"};

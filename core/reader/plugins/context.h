@@ -12,7 +12,7 @@
 
 namespace neumann::reader {
 
-// Data shared by textures, and by the meshes on which they are.
+// Data shared by textures, and by the meshes that have them.
 struct TextureStore {
     std::map<std::string, std::shared_ptr<const Texels>> images;  // by path
     struct Range {
@@ -20,7 +20,7 @@ struct TextureStore {
     };
     std::map<std::string, Range> attributes;  // of all meshes, by the attribute's name
     std::set<const Element*> open, known;     // elements being read, and elements already read
-    std::size_t parts = 0;                    // textures of which the outermost open one is made so far
+    std::size_t parts = 0;                    // textures that the outermost open one consists of so far
 
     void widen(const std::string& attribute, const Range& by) {
         Range& range = attributes.try_emplace(attribute, by).first->second;

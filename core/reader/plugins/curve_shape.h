@@ -1,4 +1,4 @@
-// <shape type="linearcurve"> and "bsplinecurve".
+// Reads <shape type="linearcurve"> and "bsplinecurve".
 #pragma once
 
 #include "core/geometry/shape.h"
@@ -7,8 +7,8 @@
 
 namespace neumann::reader {
 
-// Tubes of triangles (core/reader/meshes/curves.h) around the curves of a file. As in Mitsuba, to_world moves the points and leaves
-// the radii as they are.
+// Makes tubes of triangles (core/reader/meshes/curves.h) around the curves of a file. As in Mitsuba, to_world moves the
+// points and leaves the radii as they are.
 TriangleMesh read_curve_shape(Properties& p, const Context& context);
 
 }  // namespace neumann::reader

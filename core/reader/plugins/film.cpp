@@ -41,7 +41,8 @@ double read_width(Properties& p, const std::string& name, double missing) {
     return missing;
 }
 
-// The range of Mitchell and Netravali. Far outside of it, a filter that is cut off at the film's edge may have the integral 0.
+// Values are limited to the range of Mitchell and Netravali. Far outside of it, a filter that is cut off at the film's
+// edge may have the integral 0.
 double read_mitchell_parameter(Properties& p, const std::string& name) {
     const double value = p.number(name).value_or(1.0 / 3.0);
     if (value < 0.0 || value > 1.0) p.complain(name, fmt::format("{} is {}, expected from 0 to 1", name, value));
@@ -76,14 +77,14 @@ Film read_film(const Element& e, const Context& context) {
     film.crop_y = read_offset(p, "crop_offset_y", film.height, "height");
     film.crop_width = read_crop(p, "crop_width", film.width - film.crop_x, {"width", "crop_offset_x"});
     film.crop_height = read_crop(p, "crop_height", film.height - film.crop_y, {"height", "crop_offset_y"});
-    // Pictures are written as OpenEXR, float32 and RGB.
+    // Pictures are always written as OpenEXR, float32 and RGB.
     p.choice("file_format", {"exr", "openexr"}, "openexr");
     p.choice("pixel_format", {"rgb", "rgba"}, "rgb");
     p.choice("component_format", {"float16", "float32", "uint32"}, "float16");
     p.boolean("banner");
     p.boolean("compensate");
     film.sample_border = p.boolean("sample_border").value_or(false);
-    // Of a film that is not known there may be as many as it has pictures.
+    // A film of an unknown type may have as many filters as it has pictures.
     const std::vector<const Element*> filters = p.nested("rfilter", is_known ? 1 : std::numeric_limits<std::size_t>::max());
     for (std::size_t i = 1; i < filters.size(); ++i)
         context.problems().replace(Unknown(filters[i]->place, fmt::format("another <rfilter> in {}", p.title()), "", "ignored"),

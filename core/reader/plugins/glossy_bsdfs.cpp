@@ -12,7 +12,7 @@ struct Reflectances {
     SurfaceFunction diffuse, specular;
 };
 
-// Mitsuba scales both if they may add up to more than 1, to 0.99.
+// If both may add up to more than 1, Mitsuba scales them to 0.99.
 Reflectances read_reflectances(Properties& p, const Context& context) {
     const SurfaceFunction diffuse = read_color_texture(p, "diffuse_reflectance", 0.5, Illuminant::d65, context);
     const SurfaceFunction specular = read_color_texture(p, "specular_reflectance", 0.2, Illuminant::d65, context);

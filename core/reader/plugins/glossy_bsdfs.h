@@ -1,4 +1,4 @@
-// <bsdf type="phong"> and <bsdf type="ward"> of Mitsuba 0.4 to 0.6, which Mitsuba 3 does not have.
+// Reads <bsdf type="phong"> and <bsdf type="ward"> of Mitsuba 0.4 to 0.6, which Mitsuba 3 does not have.
 #pragma once
 
 #include "core/material/bsdf.h"

@@ -70,7 +70,7 @@ Integrator read_integrator(const Element& e, const Context& context) {
         nested = integrators.front();
         const std::string& inner = nested->attribute("type").value;
         if (inner == type) throw InputError(e.place, fmt::format("{} stands inside another one", p.title()));
-        // So that they do not stand inside each other without end.
+        // This keeps them from being nested without end.
         if (inner == "aov") throw InputError(e.place, "integrator 'aov' stands inside a 'moment', expected it around that");
         if (type == "aov" && p.text("aovs"))
             context.warnings.add("integrator 'aov': its channels are not written, only the picture of the integrator inside it");
@@ -79,7 +79,8 @@ Integrator read_integrator(const Element& e, const Context& context) {
     }
     read_course_of_work(p);
     p.finish();
-    // `moment` only adds the squares of the samples, which the standard errors contain, and `aov` what is no light.
+    // `moment` only adds the squares of the samples, which the standard errors contain, and `aov` only what is no
+    // light.
     return nested ? read_integrator(*nested, context) : result;
 }
 

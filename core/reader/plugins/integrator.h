@@ -1,4 +1,4 @@
-// <integrator>: `path` and its like, `direct`, and `aov` and `moment` around one of them.
+// Reads <integrator>: `path` and its like, `direct`, and `aov` and `moment` around one of them.
 #pragma once
 
 #include "core/reader/plugins/context.h"

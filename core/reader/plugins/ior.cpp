@@ -17,7 +17,7 @@ struct Named {
     double ior;
 };
 
-// At 589 nm and between 0 and 20 °C: Hecht, Optics, 4th edition, and further names of Mitsuba.
+// Indices are those at 589 nm and between 0 and 20 °C: Hecht, Optics, 4th edition, and further names of Mitsuba.
 const std::vector<Named> table = {{"vacuum", 1.0},      {"helium", 1.000036},        {"hydrogen", 1.000132},
                                   {"air", 1.000277},    {"carbon dioxide", 1.00045}, {"water", 1.333},
                                   {"acetone", 1.36},    {"ethanol", 1.361},          {"carbon tetrachloride", 1.461},

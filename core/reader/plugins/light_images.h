@@ -1,4 +1,4 @@
-// Pictures of lights: environment maps, and textures that a light projects.
+// Reads pictures of lights: environment maps, and textures that a light projects.
 #pragma once
 
 #include "core/emitter/slide.h"
@@ -10,7 +10,7 @@
 
 namespace neumann::reader {
 
-// Linear values. Throws InputError if a pixel is negative.
+// Returns linear values. Throws InputError if a pixel is negative.
 Image read_light_image(const Attribute& filename, const Context& context);
 
 // The <texture> of this name inside an emitter, if there is one without errors.

@@ -29,7 +29,7 @@ void orient_by_normals(TriangleMesh& mesh) {
             std::swap(t[1], t[2]);
 }
 
-// Thürmer and Wüthrich, Computing Vertex Normals from Polygonal Facets, 1998.
+// Computes vertex normals by Thürmer and Wüthrich, Computing Vertex Normals from Polygonal Facets, 1998.
 void smooth(TriangleMesh& mesh) {
     mesh.normals.assign(mesh.vertices.size(), Vec3(0.0));
     for (const std::array<std::uint32_t, 3>& t : mesh.triangles) {

@@ -1,4 +1,5 @@
-// <bsdf> that wrap others: `mask`, `blendbsdf`, `mixturebsdf` and `coating`. Each side is made of the same side of the nested ones.
+// Reads the <bsdf>s that wrap others: `mask`, `blendbsdf`, `mixturebsdf` and `coating`. Each side is made of the same
+// side of the nested ones.
 #include "core/reader/plugins/bsdfs.h"
 #include "core/reader/plugins/ior.h"
 #include "core/reader/plugins/textures.h"
@@ -15,7 +16,7 @@ namespace neumann::reader {
 
 namespace {
 
-// A weight or opacity, which must be in [0, 1] everywhere.
+// Reads a weight or opacity, which must be in [0, 1] everywhere.
 SurfaceFunction read_share(Properties& p, const std::string& name, const Context& context) {
     const SurfaceFunction share = read_number_texture(p, name, 0.5, context);
     const double largest = share.upper_bound().r;
@@ -24,7 +25,7 @@ SurfaceFunction read_share(Properties& p, const std::string& name, const Context
     return share;
 }
 
-// Not negative, and at most 1 together, as far as they are rounded.
+// The weights must not be negative, and must add up to at most 1, up to rounding.
 std::vector<double> read_weights(const Attribute& given, const std::string& title) {
     Attribute separated = given;
     std::replace(separated.value.begin(), separated.value.end(), ';', ',');
@@ -39,7 +40,7 @@ std::vector<double> read_weights(const Attribute& given, const std::string& titl
     return weights;
 }
 
-// σ of a layer, per unit of its thickness.
+// Reads σ of a layer, per unit of its thickness.
 SurfaceFunction read_absorption(Properties& p, const Context& context) {
     if (const auto texture = find_color_texture(p, "sigma_a", Illuminant::d65, context)) return *texture;
     const Element* e = p.find("sigma_a", color_types);
@@ -98,7 +99,7 @@ Materials::Sides Bsdfs::read_mixture(const Element& e) {
                                       nested.size()));
     std::vector<Materials::Sides> parts;
     for (const Element* inner : nested) parts.push_back(sides(*inner));
-    // Halves of halves, so that many parts are not nested deeply. What is missing from 1 absorbs.
+    // Mixtures of halves keep the nesting of many parts shallow. What the weights lack to 1 absorbs.
     const auto mixed = [&](int Materials::Sides::*side) {
         const std::function<int(std::size_t, std::size_t)> mix = [&](std::size_t first, std::size_t end) {
             if (end - first == 1) return parts[first].*side;

@@ -1,4 +1,4 @@
-// <bsdf type="normalmap"> and "bumpmap".
+// Reads <bsdf type="normalmap"> and "bumpmap".
 #include "core/reader/plugins/bsdfs.h"
 #include "core/reader/plugins/textures.h"
 

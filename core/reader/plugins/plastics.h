@@ -1,4 +1,4 @@
-// <bsdf type="plastic"> and <bsdf type="roughplastic">.
+// Reads <bsdf type="plastic"> and <bsdf type="roughplastic">.
 #pragma once
 
 #include "core/material/bsdf.h"

@@ -38,7 +38,7 @@ void read_sampling_rates(Properties& p, std::initializer_list<const char*> names
     for (const char* name : names) p.number(name);
 }
 
-// η, or Burley's `specular`: the reflectance at normal incidence is 0.08 times that. Glass needs η ≠ 1.
+// Reads η, or Burley's `specular`: the reflectance at normal incidence is 0.08 times that. Glass needs η ≠ 1.
 double read_eta(Properties& p, bool is_glass) {
     const auto eta = p.number("eta"), specular = p.number("specular");
     if (eta && specular) p.complain("specular", "both eta and specular are given, expected one of them");

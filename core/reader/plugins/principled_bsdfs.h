@@ -1,4 +1,4 @@
-// <bsdf type="principled"> and <bsdf type="principledthin">.
+// Reads <bsdf type="principled"> and <bsdf type="principledthin">.
 #pragma once
 
 #include "core/material/bsdf.h"

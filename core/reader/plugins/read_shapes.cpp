@@ -15,7 +15,7 @@ namespace neumann::reader {
 
 namespace {
 
-// Copies are faster to trace and can be cut into patches.
+// Groups of up to this many triangles in all are copied: copies are faster to trace and can be cut into patches.
 constexpr double most_copied_triangles = 1e6;
 
 struct Reading {
@@ -31,8 +31,8 @@ struct Reading {
 // One top-level shape, group or instance of the file.
 struct Item {
     const Element* element;
-    Reading* shape = nullptr;        // of a shape
-    const Element* group = nullptr;  // of a group or an instance
+    Reading* shape = nullptr;        // for a shape
+    const Element* group = nullptr;  // for a group or an instance
     Mat4 to_world{1.0};
     Location place_of_to_world = {};
 };

@@ -1,4 +1,4 @@
-// <bsdf type="retroreflector">, which Mitsuba does not have: `reflectance`, and `alpha` if it is rough.
+// Reads <bsdf type="retroreflector">, which Mitsuba does not have: `reflectance`, and `alpha` if it is rough.
 #pragma once
 
 #include "core/material/bsdf.h"

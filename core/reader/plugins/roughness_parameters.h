@@ -1,4 +1,5 @@
-// Parameters that rough materials share: `distribution`, `alpha` or `alpha_u` and `alpha_v`, and `sample_visible`.
+// Reads the parameters that rough materials share: `distribution`, `alpha` or `alpha_u` and `alpha_v`, and
+// `sample_visible`.
 #pragma once
 
 #include "core/material/surface_function.h"
@@ -10,12 +11,12 @@ namespace neumann::reader {
 struct RoughnessParameters {
     bool ggx;  // otherwise Beckmann
     SurfaceFunction alpha_u, alpha_v;
-    bool is_isotropic;  // by one alpha
+    bool is_isotropic;  // given by one alpha
 };
 
-// A constant α below 10⁻⁴ is a problem, which Mitsuba would replace by 10⁻⁴.
+// A constant α below 10⁻⁴ is a problem; Mitsuba would replace it by 10⁻⁴.
 RoughnessParameters read_roughness(Properties& p, const Context& context);
-// One α for all directions.
+// Reads one α for all directions.
 RoughnessParameters read_isotropic_roughness(Properties& p, const Context& context);
 
 }  // namespace neumann::reader

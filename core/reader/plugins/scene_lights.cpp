@@ -22,7 +22,7 @@ void finish(Properties& p) {
     p.finish();
 }
 
-// One parameter or the other; `name` stands first in Mitsuba's manual.
+// Reads a parameter that stands in place of `to_world`; `name` stands first in Mitsuba's manual.
 std::optional<Vec3> read_in_place_of_transform(Properties& p, const std::string& name) {
     const std::optional<Vec3> value = p.point(name);
     if (value && p.find("to_world", {"transform"}))

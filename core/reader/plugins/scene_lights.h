@@ -1,5 +1,5 @@
-// <emitter> of the kinds without a shape: `constant`, `envmap` and `sunsky`, which surround the scene, and `directional`, `point`,
-// `projector` and `spot`, which have no extent.
+// Reads the <emitter>s without a shape: `constant`, `envmap` and `sunsky`, which surround the scene, and `directional`,
+// `point`, `projector` and `spot`, which have no extent.
 #pragma once
 
 #include "core/emitter/emitters.h"
@@ -8,14 +8,15 @@
 
 namespace neumann::reader {
 
-// A factor of radiance; 1 if it is missing.
+// Reads a factor of radiance; 1 if it is missing.
 double read_scale(Properties& p, const std::string& name);
 
 class SceneLights {
 public:
     explicit SceneLights(const Context& context) : context_(context) {}
 
-    // Throws InputError for an emitter with errors, or for a second environment. Ignores lights of shapes, which these read.
+    // Throws InputError for an emitter with errors, or for a second environment. Ignores lights of shapes, which
+    // AreaLights reads.
     void add(const Element& e);
 
     std::optional<Environment> take_environment() { return std::move(environment_); }

@@ -18,7 +18,7 @@ const std::vector<std::string>& sensor_types() {
     return types;
 }
 
-// "50mm" or "50".
+// Reads "50mm" or "50".
 double parse_focal_length(Properties& p, std::string text) {
     const std::string whole = text;
     if (text.ends_with("mm")) text.resize(text.size() - 2);
@@ -73,7 +73,8 @@ SensorOptions read_orthographic(Properties& p) {
     return camera;
 }
 
-// `direction` or +z of `to_world`, unit length. `beside`: what may already have a problem with them.
+// Reads `direction`, or the +z of `to_world`, at length 1. `beside` names parameters that may already have a problem
+// with them.
 Vec3 read_direction(Properties& p, const std::vector<std::string>& beside = {}) {
     const Element* to_world = p.find("to_world", {"transform"});
     const std::optional<Vec3> direction = p.point("direction");
@@ -84,8 +85,8 @@ Vec3 read_direction(Properties& p, const std::vector<std::string>& beside = {}) 
     return largest > 0.0 ? glm::normalize(along / largest) : Vec3(0.0, 0.0, 1.0);
 }
 
-// The limit of a pinhole camera as its field of view tends to 0: of a millionth of a radian, so that the ray is spread over a
-// millionth of the distance.
+// A radiance meter is the limit of a pinhole camera as its field of view tends to 0. A field of a millionth of a radian
+// stands for it, which spreads the ray over a millionth of the distance.
 SensorOptions read_radiance_meter(Properties& p) {
     p.find("to_world", {"transform"});
     const std::optional<Vec3> origin = p.point("origin"), direction = p.point("direction");
@@ -104,7 +105,7 @@ SensorOptions read_radiance_meter(Properties& p) {
     return camera;
 }
 
-// What a distant sensor aims at, if that is not all of the scene.
+// Reads what a distant sensor aims at, if that is not all of the scene.
 void read_target(Properties& p, SensorOptions& camera, const Context& context) {
     if (const Element* shape = p.object("target", "shape")) {
         const std::string& type = shape->attribute("type").value;
@@ -127,7 +128,7 @@ SensorOptions read_distant(Properties& p, const Context& context) {
     return camera;
 }
 
-// Reads a sensor without its film and sampler, and those of a batch.
+// Reads a sensor without its film and sampler, and the sensors of a batch.
 class SensorReader {
 public:
     SensorReader(const Context& context, const std::vector<ReadShape>& shapes) : context_(context), shapes_(shapes) {}
@@ -167,7 +168,7 @@ private:
         return meter;
     }
 
-    // Films and samplers of the sensors inside are those of the batch, whatever they say.
+    // The sensors inside have the film and the sampler of the batch, whatever they say.
     SensorOptions read_batch(Properties& p) {
         SensorOptions batch;
         batch.kind = SensorOptions::Kind::batch;
@@ -234,7 +235,7 @@ FieldOfView read_field_of_view(Properties& p) {
     const std::optional<double> fov = p.number("fov");
     const std::optional<std::string> focal_length = p.text("focal_length");
     if (fov && focal_length) p.complain("focal_length", "both fov and focal_length are given, expected one of them");
-    // Of 35 mm film, 36 mm × 24 mm.
+    // The focal length is for 35 mm film, 36 mm × 24 mm.
     if (!fov)
         return {2.0 * std::atan(0.5 * std::hypot(36.0, 24.0) / parse_focal_length(p, focal_length.value_or("50mm"))),
                 FovAxis::diagonal};
@@ -279,7 +280,7 @@ SamplerKind read_sampler(const Element& e, const Context& context) {
     static const std::vector<std::string> types = {"independent", "ldsampler", "multijitter", "orthogonal", "stratified"};
     const std::string type = type_of(e, types, "independent", context.problems());
     Properties p(e, context.objects);
-    // The command line decides about both.
+    // The command line decides about the number of samples and the seed.
     const std::int64_t count = p.integer("sample_count").value_or(1);
     if (count < 1) p.complain("sample_count", fmt::format("sample_count is {}, expected at least 1", count));
     p.integer("seed");

@@ -1,4 +1,4 @@
-// <sensor>, with its film and sampler.
+// Reads <sensor>, with its film and sampler.
 #pragma once
 
 #include "core/reader/plugins/context.h"
@@ -14,19 +14,19 @@ struct ReadSensor {
     SensorOptions camera;
     Film film;
     std::optional<SamplerKind> sampler;
-    std::set<const Element*> meters;  // those of shapes that are part of it
+    std::set<const Element*> meters;  // sensors of shapes that are part of it
 };
 
-// `fov` with its axis or `focal_length`, as an angle; Mitsuba's default is a lens of 50 mm.
+// The angle given by `fov` with its axis or by `focal_length`; Mitsuba's default is a lens of 50 mm.
 struct FieldOfView {
-    double angle;  // full, radians
+    double angle;  // full, in radians
     FovAxis axis;
 };
 FieldOfView read_field_of_view(Properties& p);
-// Rotations, reflections and translations only.
+// Reads a transform that must consist of rotations, reflections and translations.
 Mat4 read_rigid_transform(Properties& p);
 
-// `shapes`: of the scene.
+// `shapes` are those of the scene.
 ReadSensor read_sensor(const Element& e, const Context& context, const std::vector<ReadShape>& shapes);
 Film read_film(const Element& e, const Context& context);
 PixelFilter read_filter(const Element& e, const Context& context);

@@ -1,5 +1,5 @@
-// <shape>: obj, ply, serialized, linearcurve, bsplinecurve, rectangle, cube, disk, sphere, cylinder. Groups and instances are in
-// read_shapes.h.
+// Reads <shape>: obj, ply, serialized, linearcurve, bsplinecurve, rectangle, cube, disk, sphere, cylinder. Groups and
+// instances are in read_shapes.h.
 #pragma once
 
 #include "core/geometry/shape.h"
@@ -12,7 +12,7 @@ struct ReadShape {
     const Element* bsdf = nullptr;     // null: not named
     const Element* emitter = nullptr;  // null: it does not emit
     const Element* sensor = nullptr;   // null: nothing measures on it
-    const Element* element = nullptr;  // from which it was read
+    const Element* element = nullptr;  // from which the shape was read
 };
 
 ReadShape read_shape(const Element& e, const Context& context);

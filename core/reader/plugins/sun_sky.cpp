@@ -32,7 +32,7 @@ Rgb read_albedo(Properties& p, const Context& context) {
     return albedo;
 }
 
-// Mitsuba's example is Tokyo. `given`: the first of the parameters that is there.
+// The defaults are Mitsuba's example, Tokyo. `given` becomes the first of the parameters that is there.
 TimeAndPlace read_time_and_place(Properties& p, std::string& given) {
     const auto number = [&](const char* name, double missing) {
         const auto value = p.number(name);
@@ -63,7 +63,7 @@ TimeAndPlace read_time_and_place(Properties& p, std::string& given) {
     return at;
 }
 
-// In Mitsuba's space of the emitter +z is up, the north at −x and the east at −y.
+// In Mitsuba's space of the emitter +z is up, north is −x and east is −y.
 Vec3 direction_of(const SunPosition& sun) {
     return {-std::sin(sun.zenith_angle) * std::cos(sun.azimuth), -std::sin(sun.zenith_angle) * std::sin(sun.azimuth),
             std::cos(sun.zenith_angle)};
@@ -105,7 +105,7 @@ Environment read_sunsky(Properties& p, const Context& context) {
     const double elevation = std::asin(sin_elevation);
     Rgb sun(0.0);
     if (sun_scale > 0.0) {
-        // The same power from a disc of any size.
+        // A disc of any size emits the same power.
         const auto solid_angle = [](double angle) { return 1.0 - std::cos(glm::radians(0.5 * angle)); };
         const Rgb found = spectrum_to_rgb(sun_spectrum(turbidity, elevation), Illuminant::equal_energy);
         sun = glm::max(found, Rgb(0.0)) * (sun_scale * solid_angle(sun_angle) / solid_angle(aperture));

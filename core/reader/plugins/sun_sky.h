@@ -1,4 +1,4 @@
-// <emitter type="sunsky">.
+// Reads <emitter type="sunsky">.
 #pragma once
 
 #include "core/emitter/environment.h"
@@ -7,7 +7,7 @@
 
 namespace neumann::reader {
 
-// Black if the sun is below the horizon, as in Mitsuba.
+// The sun is black if it is below the horizon, as in Mitsuba.
 Environment read_sunsky(Properties& p, const Context& context);
 
 }  // namespace neumann::reader

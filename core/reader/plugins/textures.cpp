@@ -19,7 +19,7 @@ Texture read_bitmap(Properties& p, const Context& context) {
     const std::string wrap = p.choice("wrap_mode", {"repeat", "mirror", "clamp"}, "repeat");
     const bool raw = p.boolean("raw").value_or(false);
     const UvTransform to_uv(p.transform("to_uv"));
-    // Mitsuba's storage and lookup of texels; they change rounding only.
+    // These choose Mitsuba's storage and lookup of texels, and change rounding only.
     p.choice("format", {"auto", "variant", "fp16"}, "auto");
     p.boolean("accel");
     p.refuse_rest();
@@ -40,7 +40,7 @@ Texture read_bitmap(Properties& p, const Context& context) {
             bitmap->height()};
 }
 
-// A number that is given as a colour: the mean of its channels.
+// Reads a number that is given as a colour: the mean of its channels.
 Rgb read_mean(Properties& p, const std::string& name, const Element& e, const Context& context) {
     const Rgb c = parse_color(p, name, e, Illuminant::d65, context.warnings);
     if (is_grey(c)) return c;
@@ -70,7 +70,7 @@ Texture read_checkerboard(Properties& p, std::optional<Illuminant> illuminant, c
              glm::max(color0.upper_bound(), color1.upper_bound()), color0.is_grey() && color1.is_grey()}};
 }
 
-// Colours are neither decoded nor clipped.
+// Colours of a rawconstant are neither decoded nor clipped.
 Texture read_raw_constant(Properties& p, bool is_number) {
     const Element& e = p.require("value", {"float", "integer", "vector"});
     const bool is_vector = e.tag == "vector";
@@ -80,7 +80,7 @@ Texture read_raw_constant(Properties& p, bool is_number) {
     return {value, value};
 }
 
-// Another texture times `scale` (Mitsuba 0.6). The factor of a colour may be a colour.
+// Reads another texture times `scale` (Mitsuba 0.6). The factor of a colour may be a colour.
 Texture read_scaled(Properties& p, std::optional<Illuminant> illuminant, const Context& context) {
     const Element* given = p.find("scale", color_types);
     const Rgb scale = !given       ? Rgb(1.0)

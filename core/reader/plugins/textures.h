@@ -1,5 +1,5 @@
-// Parameters that may vary over a surface: a colour or a number, or a <texture> in its place (`bitmap`, `checkerboard`,
-// `mesh_attribute`, `rawconstant`, or `scale` around one of them).
+// Reads parameters that may vary over a surface: a colour or a number, or a <texture> in its place (`bitmap`,
+// `checkerboard`, `mesh_attribute`, `rawconstant`, or `scale` around one of them).
 #pragma once
 
 #include "core/material/surface_function.h"
@@ -18,21 +18,22 @@ struct Texture {
     int width = 64, height = 64;
 };
 
-// `illuminant`: for converting spectra to colours; none if a number is wanted.
+// `illuminant` is for converting spectra to colours; none if a number is wanted.
 Texture read_texture(const Element& e, std::optional<Illuminant> illuminant, const Context& context);
 // The same for a parameter `name` that must not be negative.
 Texture read_not_negative(const Element& e, const std::string& name, std::optional<Illuminant> illuminant, const Context& context);
 
-// A colour; `missing` in all channels if it is not given.
+// Reads a colour; `missing` in all channels if it is not given.
 SurfaceFunction read_color_texture(Properties& p, const std::string& name, double missing, Illuminant illuminant,
                                    const Context& context);
-// A colour, if it is given by a <texture>.
+// Reads a colour, if it is given by a <texture>.
 std::optional<SurfaceFunction> find_color_texture(Properties& p, const std::string& name, Illuminant illuminant,
                                                   const Context& context);
 // A picture's texels, read once for all textures; the file becomes part of the scene's hash.
 std::shared_ptr<const Texels> read_texels(const Attribute& filename, const Context& context);
 
-// A number, in all channels: the luminance of a picture or, as in Mitsuba, the mean of the channels of any other colour.
+// Reads a number into all channels: the luminance of a picture or, as in Mitsuba, the mean of the channels of any other
+// colour.
 SurfaceFunction read_number_texture(Properties& p, const std::string& name, double missing, const Context& context);
 
 // The mesh attributes that the textures on a shape need, and the elements that name them.

@@ -1,4 +1,4 @@
-// <bsdf> of transmitting boundaries: `dielectric`, `thindielectric`, `roughdielectric`, `null`.
+// Reads the <bsdf>s of transmitting boundaries: `dielectric`, `thindielectric`, `roughdielectric`, `null`.
 #pragma once
 
 #include "core/material/bsdf.h"

@@ -8,7 +8,7 @@ namespace neumann::reader {
 
 namespace {
 
-// Limit on the length, because defaults may contain defaults, each twice as long as the one before.
+// Limits the length, because defaults may contain defaults, each twice as long as the one before.
 constexpr std::size_t max_length = std::size_t(1) << 24;
 
 bool is_name_character(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_'; }

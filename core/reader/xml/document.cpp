@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int max_include_depth = 15;  // as Mitsuba
+constexpr int max_include_depth = 15;  // as in Mitsuba
 
 class Loader {
 public:
@@ -43,7 +43,7 @@ public:
     }
 
 private:
-    // Of scenes that are XML, too.
+    // Refuses scenes of other programs that are XML, too.
     static void refuse_other_programs(const Element& root) {
         const auto has = [&](const char* tag) {
             return std::ranges::any_of(root.children, [&](const Element& e) { return e.tag == tag; });
@@ -54,7 +54,7 @@ private:
                 "this looks like a scene of Nori, expected one of Mitsuba: <scene version=\"3.0.0\">, with <sensor> in "
                 "place of <camera>, <shape> of <mesh>, and <rgb> of <color>");
     }
-    // The elements of a file.
+    // Reads the elements of a file.
     Element read_file(const std::string& path, const Element& root);
     Element read_element(const Element& raw, const std::string& parent_tag, int depth);
     void read_children(const Element& raw, Element& parent, int depth);
@@ -63,7 +63,7 @@ private:
     void add_default(const Element& e);
     void add_folder(const Element& e);
     void include(const Element& e, Element& parent);
-    // The element, or nothing where a lenient reader leaves it out.
+    // Reads an element, or returns nothing if a lenient reader leaves it out.
     std::optional<Element> read_child(const Element& raw, const Element& parent, int depth);
     // Notes that an element and its contents are not in the document.
     void lose(const Element& raw);

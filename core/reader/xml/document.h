@@ -22,9 +22,9 @@ struct Document {
     std::string find_file(const Attribute& name) const;
 };
 
-// `scene`: as it was read from the first of its files. Upgrades of files of older versions are noted in `warnings`. Unused
-// definitions are a problem, unless they are `optional`. Errors are added to `problems`, and the elements are marked as broken in
-// the document. Throws InputError if the main file cannot be read as a scene at all.
+// `scene` is as it was read from the first of its files. Upgrades of files of older versions are noted in `warnings`.
+// Unused definitions are a problem, unless they are `optional`. Errors are added to `problems`, and the elements are
+// marked as broken in the document. Throws InputError if the main file cannot be read as a scene at all.
 Document read_document(RawScene scene, const std::map<std::string, std::string>& definitions, Warnings& warnings,
                        Problems& problems, bool optional = false);
 

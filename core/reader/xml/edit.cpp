@@ -32,7 +32,7 @@ Element* with_id(Element& root, const std::string& id) {
     return found;
 }
 
-// The only object of the scene with this tag, without an id.
+// The only object of the scene with this tag and without an id.
 Element* alone(Element& root, const std::string& tag) {
     Element* found = nullptr;
     for (Element& e : root.children) {
@@ -63,7 +63,7 @@ std::vector<std::string> parts_of(const std::string& name) {
     return parts;
 }
 
-// Numbers of either kind.
+// Whether the tag is that of a number.
 bool is_number(const std::string& tag) { return tag == "float" || tag == "integer"; }
 
 Element parameter(const std::string& name, const Edit& edit, const std::string& before, const Location& place) {
@@ -86,7 +86,7 @@ void apply(const Edit& edit, Element& root) {
     if (has_value) parts.pop_back();
     if (parts.size() < 2)
         throw InputError(fmt::format("{}: expected an object and a parameter, as in white.reflectance.value", edit.name));
-    // An id may have dots in it.
+    // An id may contain dots.
     Element* object = nullptr;
     for (std::size_t n = parts.size() - 1; n > 0 && !object; --n) {
         const auto end = parts.begin() + static_cast<std::ptrdiff_t>(n);

@@ -19,7 +19,7 @@ struct Element {
     std::vector<Attribute> attributes;
     std::vector<Element> children;
     Location place;
-    std::string text = {};  // between the children, in an XML file: an error
+    std::string text = {};  // between the children; an error in an XML file
     // Its error is already reported; the element is not used.
     bool broken = false;
 

@@ -1,4 +1,4 @@
-// Which elements and attributes a scene file may contain, and where.
+// Checks which elements and attributes a scene file contains, and where.
 #pragma once
 
 #include "core/reader/xml/element.h"

@@ -5,8 +5,8 @@
 
 namespace neumann::reader {
 
-// Such as "hair is not simulated", or "" for what Mitsuba does not have, either. `tag`: of the element, such as "bsdf"; `type`: ""
-// for an element that no type of is read.
+// A text such as "hair is not simulated", or "" for what Mitsuba does not have, either. `tag` is that of the element,
+// such as "bsdf"; `type` is "" for an element of which no type is read.
 std::string_view instead_of(std::string_view tag, std::string_view type);
 
 }  // namespace neumann::reader

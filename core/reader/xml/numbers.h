@@ -1,4 +1,5 @@
-// The values of attributes. The whole text must be the value; every function throws InputError at the attribute otherwise.
+// Reads the values of attributes. The whole text must be the value; every function throws InputError at the attribute
+// otherwise.
 #pragma once
 
 #include "core/base/vec.h"
@@ -11,7 +12,7 @@ namespace neumann::reader {
 double parse_number(const Attribute& a);  // finite
 std::int64_t parse_integer(const Attribute& a);
 bool parse_boolean(const Attribute& a);
-// Separated by blanks or commas.
+// The parts of a text between blanks or commas.
 std::vector<std::string> split(const std::string& text);
 std::vector<double> parse_numbers(const Attribute& a);
 Vec3 parse_triple(const Attribute& a);

@@ -9,7 +9,8 @@
 
 namespace neumann::reader {
 
-// Of textures, and of materials, inside each other: as deep as elements in a file may stand, but by references as well.
+// The limit for textures, and materials, inside each other: as deep as elements in a file may stand, but by references
+// as well.
 inline constexpr std::size_t max_nesting = 100;
 
 // Ids of what could not be read.
@@ -23,11 +24,11 @@ public:
     // Registers objects at any depth, and aliases. An id that is given twice is a problem.
     Objects(const Element& root, Problems& problems, LostIds lost = {});
 
-    // The object that <ref id=…> means; throws InputError if there is none.
+    // The object to which <ref id=…> refers; throws InputError if there is none.
     const Element& find(const Attribute& id, const std::string& what = "reference to") const;
-    // Whether what has this id could not be read.
+    // Whether the object with this id could not be read.
     bool is_lost(const Attribute& id) const { return lost_.ids.contains(id.value); }
-    // The object that a <ref> means, or null.
+    // The object to which a <ref> refers, or null.
     const Element* known(const Element& reference) const;
 
     Problems& problems() const { return problems_; }

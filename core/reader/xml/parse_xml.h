@@ -1,11 +1,11 @@
-// An XML file as a tree of elements, as they stand there.
+// Reads an XML file as a tree of elements, unchanged.
 #pragma once
 
 #include "core/reader/xml/element.h"
 
 namespace neumann::reader {
 
-// Elements nested deeper than this are left out, which is for the caller to refuse.
+// Elements nested deeper than this are left out; the caller must refuse them.
 constexpr int max_element_depth = 100;
 
 // Throws InputError if the file cannot be read, is not XML, or has several outermost elements.

@@ -19,11 +19,11 @@ public:
     Told() : InputError("a problem that has been told") {}
 };
 
-// Something that is not known here, as opposed to something that is wrong.
+// Thrown for something that is not known here, as opposed to something that is wrong.
 class Unknown : public InputError {
 public:
-    // As an error the message is `what` and `expected`, which begins with the sign between them; to a lenient reader it is `what`
-    // and what it does `instead`, such as "left out".
+    // As an error the message is `what` and `expected`, which begins with the punctuation between them; to a lenient
+    // reader it is `what` and what it does `instead`, such as "left out".
     Unknown(const Location& place, const std::string& what, const std::string& expected, const std::string& instead)
         : InputError(place, what + expected), replaced_(to_string(place) + ": " + what + "; " + instead) {}
 
@@ -33,7 +33,7 @@ private:
     std::string replaced_;
 };
 
-// May be added to from several threads at once.
+// Problems may be added from several threads at once.
 class Problems {
 public:
     // `lenient`: what is unknown is no problem; it is listed, and the reader goes on with the replacement.
@@ -46,7 +46,8 @@ public:
     // Lists what is unknown if the reader is lenient, and otherwise throws it.
     void replace(const Unknown& unknown, const Location& near);
 
-    // Calls f and returns its result, or nothing if it throws InputError. If f returns void: whether it did not throw.
+    // Calls f and returns its result, or nothing if it throws InputError. If f returns void, returns whether it did not
+    // throw.
     template <class F>
     auto attempt(const Location& near, F&& f) {
         using Result = std::invoke_result_t<F>;
@@ -65,14 +66,14 @@ public:
     }
 
     bool any() const;
-    // Throws InputError if there are problems: one per line, without repetition, in the order of the scene files and their lines;
-    // UnknownError if a lenient reader had none.
+    // Throws InputError if there are problems: one per line, without repetition, in the order of the scene files and
+    // their lines. It is an UnknownError if a lenient reader would have had none.
     void check(const std::vector<std::string>& files) const;
     // What a lenient reader replaced or left out, in the same order.
     std::vector<std::string> replaced(const std::vector<std::string>& files) const;
 
 private:
-    // Nothing is left out in silence: if no problem explains why something cannot be read, that is one.
+    // Adds a problem if none explains why something could not be read, so that nothing is left out silently.
     void expect_told(const Location& near);
 
     bool lenient_;

@@ -19,7 +19,7 @@ namespace {
 
 const std::vector<std::string> spectrum_types = {"blackbody", "d65", "irregular", "regular", "uniform"};
 
-// "400:0.5, 500:0.75".
+// Writes a list such as "400:0.5, 500:0.75".
 class ListWriter {
 public:
     void add(double wavelength, double value) { text_ += fmt::format("{}{}:{}", text_.empty() ? "" : ", ", wavelength, value); }
@@ -67,7 +67,7 @@ Range read_range(Properties& p) {
     return range;
 }
 
-// In steps of 1 nm: linear interpolation is then right to 1e-5.
+// In steps of 1 nm linear interpolation is right to 1e-5.
 std::string read_blackbody(Properties& p) {
     p.require("temperature", {"float", "integer"});
     const double temperature = p.number("temperature").value_or(1.0);

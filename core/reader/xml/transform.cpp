@@ -31,7 +31,7 @@ Mat4 parse_lookat(const Element& e) {
                 glm::dvec4(origin, 1.0));
 }
 
-// Row by row, as 3×3 or 4×4.
+// The numbers are row by row, 3×3 or 4×4.
 Mat4 parse_matrix(const Element& e) {
     const Attribute& value = e.attribute("value");
     const std::vector<double> v = parse_numbers(value);

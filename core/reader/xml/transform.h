@@ -1,4 +1,4 @@
-// <transform>: its operations are applied one after the other, in the order of the file.
+// Reads <transform>: its operations are applied one after the other, in the order of the file.
 #pragma once
 
 #include "core/base/vec.h"

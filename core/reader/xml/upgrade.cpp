@@ -17,7 +17,7 @@ namespace {
 bool is_lower(char c) { return c >= 'a' && c <= 'z'; }
 bool is_upper(char c) { return c >= 'A' && c <= 'Z'; }
 
-// toWorld: to_world; intIOR: int_ior; B: B.
+// Converts toWorld to to_world, intIOR to int_ior, and leaves B as it is.
 std::string snake_case(const std::string& name) {
     std::string result;
     bool lowering = false;
@@ -120,7 +120,7 @@ void upgrade_gamma(Element& e, Warnings& warnings) {
     warnings.add(fmt::format("old scene file: gamma {} of a bitmap taken as {}", gamma, gamma == 1.0 ? "raw" : "sRGB"));
 }
 
-// The refractive index outside, or inside. Metals are in air, as in Mitsuba 3.
+// Renames the refractive index outside, or inside. Metals are in air, as in Mitsuba 3.
 void upgrade_indices(Element& e, Warnings& warnings) {
     const std::string type = type_or_nothing(e);
     if (type == "conductor" || type == "roughconductor") {
@@ -163,7 +163,7 @@ void upgrade_bitmap(Element& e, Warnings& warnings) {
     }
 }
 
-// The colours of vertices, which Mitsuba 3 finds by a name.
+// Mitsuba 3 finds the colours of vertices by a name.
 void upgrade_vertex_colors(Element& e, Warnings& warnings) {
     rename_type(e, "mesh_attribute", warnings);
     e.children.push_back({"string", {{"name", "name", e.place}, {"value", "vertex_color", e.place}}, {}, e.place});
@@ -204,9 +204,9 @@ void upgrade_sky(Element& e, Warnings& warnings) {
     warnings.add("old scene file: emitter 'sunsky' turned, for its +y was up");
 }
 
-// Below an angle of 0 no edge is smooth.
+// A maxSmoothAngle of 0 means that no edge is smooth.
 void upgrade_shape(Element& e, Warnings& warnings) {
-    drop(e, {"collapse"});  // several meshes of a file as one, as here
+    drop(e, {"collapse"});  // makes one mesh of a file's several, as here
     const Element* given = find(e, "max_smooth_angle");
     if (!given || !given->find("value")) return;
     const Attribute value = given->attribute("value");
@@ -218,8 +218,8 @@ void upgrade_shape(Element& e, Warnings& warnings) {
             "old scene file: maxSmoothAngle of a shape left out: all of its edges are smooth, or as its normals have them");
 }
 
-// Mitsuba 0.6 has spectra of three values: it integrates a list of wavelengths under equal energy, of light and of surfaces alike,
-// and a single value is that of all three.
+// Mitsuba 0.6 has spectra of three values. It integrates a list of wavelengths under equal energy, for light and
+// surfaces alike, and a single value stands for all three.
 void upgrade_spectra(Element& parent, Warnings& warnings) {
     for (Element& e : parent.children) {
         if (e.tag != "spectrum" || e.broken || e.find("type")) continue;

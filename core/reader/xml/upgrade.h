@@ -12,7 +12,7 @@ namespace neumann::reader {
 // say what was upgraded. Throws InputError for features that no longer have a meaning.
 void upgrade_tag(Element& e, Warnings& warnings);
 void upgrade_parameters(Element& e, Warnings& warnings);
-// The names of Mitsuba 2, after that.
+// Upgrades the names of Mitsuba 2; call it after upgrade_parameters() in files of all older versions.
 void upgrade_from_2(Element& e);
 
 }  // namespace neumann::reader

@@ -21,7 +21,7 @@ const std::array<std::string, 2> projections = {"orthographic", "perspective"};
 const std::array<std::string, 5> parts_of_perspective = {"aspect_ratio", "xfov", "yfov", "zfar", "znear"};
 const std::array<std::string, 5> parts_of_orthographic = {"aspect_ratio", "xmag", "ymag", "zfar", "znear"};
 
-// The sizes along x and y, fields of view or magnifications, as far as they are given.
+// The sizes along x and y, which are fields of view or magnifications, and the aspect, as far as they are given.
 struct Extent {
     std::optional<double> x, y, aspect;
 };
@@ -41,7 +41,7 @@ std::optional<double> angle(const Element& e, const char* tag) {
     return degrees;
 }
 
-// Without the node's scale, which would distort the picture.
+// The place of the camera without the node's scale, which would distort the picture.
 Mat4 rigid(const Instance& camera, const Import& import) {
     const Mat4& m = camera.to_world;
     Vec3 lengths(length_of(Vec3(m[0])), length_of(Vec3(m[1])), length_of(Vec3(m[2])));
@@ -87,7 +87,7 @@ public:
     }
 
 private:
-    // The view of the course's program, in its files, unless -D camera=file asks for the file's.
+    // In a file of a course the view is that of the course's program, unless -D camera=file asks for the file's.
     Mat4 place(const Instance& camera, const Bounds& scene) {
         const bool of_course = import_.file.is_of_course() && !scene.is_empty() && !asks_for_file();
         if (const std::optional<Vec3> direction = of_course ? course_direction(camera) : std::nullopt) {
@@ -98,7 +98,7 @@ private:
             return view_of(scene, *direction, up_);
         }
         if (!camera.is_placed) {
-            read_transforms(*camera.node);  // tells what is wrong
+            read_transforms(*camera.node);  // throws what is wrong
             throw InputError(camera.node->place, "the camera cannot be placed");
         }
         as_in_file_ = true;
@@ -173,7 +173,7 @@ private:
     const Import& import_;
     Element sensor_;
     double aspect_ = usual_aspect;  // width / height
-    bool as_in_file_ = false;       // where it stands, and so what clips
+    bool as_in_file_ = false;       // the camera stands where the file has it, so its clipping distances apply
 };
 
 }  // namespace

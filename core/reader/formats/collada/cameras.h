@@ -1,4 +1,4 @@
-// The camera of the scene.
+// Reads the camera of the scene.
 #pragma once
 
 #include "core/geometry/bounds.h"
@@ -7,8 +7,8 @@
 
 namespace neumann::reader::collada {
 
-// Adds a <sensor>: the first camera, or a view of the whole scene, of these bounds. -D sets width, height and spp, and camera, its
-// matrix. `up`: the file's up axis.
+// Adds a <sensor>: the first camera or, without any, a view of the whole scene, which has these bounds. -D sets width,
+// height, spp and camera, the sensor's matrix. `up` is the index of the file's up axis.
 void add_camera(const std::vector<Instance>& cameras, const Bounds& scene, int up, const Import& import);
 
 }  // namespace neumann::reader::collada

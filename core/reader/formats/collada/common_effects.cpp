@@ -18,7 +18,7 @@ const std::array<std::string, 11> slots = {"ambient",    "diffuse",      "emissi
                                            "reflective", "reflectivity", "shininess", "specular", "transparency",
                                            "transparent"};
 
-// Whether a program's own part of an effect has a bump or normal map.
+// Whether an effect has a bump or normal map, which is some program's own addition.
 bool has_bumps(const Element& e) {
     return e.tag == "bump" || e.tag == "bumpmap" || e.tag == "normalmap" ||
            std::any_of(e.children.begin(), e.children.end(), has_bumps);
@@ -55,7 +55,7 @@ private:
 
     const Element* slot(const std::string& tag) const { return child(*shader_, tag); }
 
-    // What <emission> or the like holds; nothing if it is not there or wrong, which is then told.
+    // The value of <emission> or the like; nothing if it is missing or, which is reported, wrong.
     std::optional<Value> value(const std::string& tag) {
         const Element* e = slot(tag);
         if (!e) return std::nullopt;
@@ -83,7 +83,7 @@ private:
         return parameters_.find(ref.value, ref.place);
     }
 
-    // A colour or a picture as a parameter of an element.
+    // Adds a colour or a picture as a parameter.
     void add_value(Element& to, const std::string& name, const Value& v, const Location& place) {
         if (!v.texture) return add_rgb(to, name, v.color.rgb, place);
         auto bitmap = import_.problems.attempt(place, [&] { return make_bitmap(*v.texture, name, parameters_, import_); });
@@ -115,7 +115,7 @@ private:
 
     void add_reflection() {
         std::optional<Value> diffuse = value("diffuse");
-        // As in the course's program.
+        // The course's program takes a missing <diffuse> as 0.5.
         if (!slot("diffuse") && import_.file.is_of_course()) diffuse = Value{{Rgb(0.5)}};
         const double opacity = read_opacity();
         if ((!diffuse || diffuse->is_black()) && opacity == 1.0 && surface_.emitter) return;
@@ -134,7 +134,7 @@ private:
         return slot(tag) ? slot(tag)->place : slot(other)->place;
     }
 
-    // COLLADA 1.5, chapter 7, "Determining transparency". 1 if nothing is said.
+    // The opacity by COLLADA 1.5, chapter 7, "Determining transparency"; 1 if nothing is said about it.
     double read_opacity() {
         const std::optional<Value> transparent = value("transparent");
         const std::optional<double> transparency = number("transparency");

@@ -29,7 +29,7 @@ public:
 private:
     std::size_t corner_count() const { return corners_.indices.size() / corners_.stride; }
 
-    // Appends the indices of a <p>, and returns how many corners they are.
+    // Appends the indices of a <p>, and returns the number of its corners.
     std::size_t append(const Element& p) {
         std::vector<std::uint32_t> indices = read_indices(p);
         if (indices.size() % corners_.stride != 0)
@@ -95,7 +95,7 @@ private:
         check_count(sizes.size());
     }
 
-    // Of a polygon, a fan or a strip in each <p>.
+    // Reads a polygon, a fan or a strip from each <p>.
     void read_lists() {
         std::size_t lists = 0, triangles = 0;
         for (const Element& p : primitive_.children) {
@@ -105,7 +105,7 @@ private:
             if (count < 3) throw InputError(p.place, fmt::format("<p> has {} corners, expected at least 3", count));
             if (primitive_.tag == "tristrips")
                 for (std::size_t i = 2; i < count; ++i)
-                    add(first + i - 2, first + i - 1 + i % 2, first + i - i % 2);  // every other one is turned
+                    add(first + i - 2, first + i - 1 + i % 2, first + i - i % 2);  // every other triangle is turned
             else if (primitive_.tag == "trifans")
                 add_fan(first, count);
             else
@@ -113,7 +113,7 @@ private:
             ++lists;
             triangles += count - 2;
         }
-        // Of strips and fans, some programs count the triangles.
+        // Some programs count the triangles of strips and fans, not the strips and fans.
         if (const Attribute* count = primitive_.find("count"); count && read_count(*count) != triangles) check_count(lists);
     }
 

@@ -1,4 +1,4 @@
-// The corners of the triangles of a <triangles>, <polylist> and so on, and what they index.
+// Reads the corners of the triangles of a <triangles>, <polylist> and so on, and the indices of each corner.
 #pragma once
 
 #include "core/reader/meshes/polygons.h"
@@ -10,10 +10,10 @@
 namespace neumann::reader::collada {
 
 struct Corners {
-    std::size_t stride = 1;              // indices of a corner
+    std::size_t stride = 1;              // number of indices of a corner
     std::vector<std::uint32_t> indices;  // those of corner c begin at c · stride
-    CornerTriples triangles;             // by their corners
-    std::vector<Fan> fans;               // polygons of more than three
+    CornerTriples triangles;             // by the numbers of their corners
+    std::vector<Fan> fans;               // polygons of more than three corners
 };
 
 // Throws InputError.

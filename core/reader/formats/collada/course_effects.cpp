@@ -1,5 +1,5 @@
-// The materials of the program of CMU 15-462 and Berkeley CS184. Where it differs from nature, nature is taken: Fresnel's equations
-// in place of Schlick's approximation.
+// The materials of the program of CMU 15-462 and Berkeley CS184. Where the program differs from physics, physics is
+// followed: Fresnel's equations replace Schlick's approximation.
 #include "core/reader/formats/collada/surface.h"
 #include "core/reader/formats/collada/texts.h"
 #include "core/reader/formats/make_elements.h"

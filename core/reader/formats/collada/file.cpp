@@ -115,7 +115,7 @@ const Element& File::find(const Attribute& url, const std::string& tag) const {
         for (const auto& [name, e] : ids) names.push_back(name);
         throw InputError(url.place, fmt::format("there is no <{}> '{}'{}", tag, given, did_you_mean(given, names)));
     }
-    // Some programs write the same element again.
+    // Some programs write the same element twice.
     const Element& found = *first->second;
     if (std::any_of(std::next(first), last, [&](const auto& other) { return !is_same(*other.second, found); }))
         throw InputError(url.place, fmt::format("there are several <{}> '{}', at {} and at {}, expected one", tag, id,

@@ -1,4 +1,4 @@
-// What the parts of the importer share.
+// State that the parts of the importer share.
 #pragma once
 
 #include "core/base/warnings.h"
@@ -9,7 +9,7 @@ namespace neumann::reader::collada {
 
 struct Import {
     const File& file;
-    RawScene& scene;  // that is made
+    RawScene& scene;  // the scene that is made
     const NamedValues& definitions;
     Warnings& warnings;
     Problems& problems;

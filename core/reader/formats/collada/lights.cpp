@@ -42,7 +42,7 @@ public:
         if (technique.children.empty())
             throw InputError(technique.place, "<technique> of a light has no light inside, expected one");
         const Element& kind = technique.children.front();
-        if (std::ranges::find(kinds, kind.tag) == kinds.end()) return;  // which is told
+        if (std::ranges::find(kinds, kind.tag) == kinds.end()) return;  // already reported
         check_children(kind, parts_of_kind, import_.problems);
         if ((kind.tag == "directional" || kind.tag == "spot") && !is_invertible(instance.to_world))
             throw InputError(instance.node->place, "the node of a light scales it to 0: it does not tell where the light shines");
@@ -70,7 +70,7 @@ public:
     std::vector<Lamp> lamps;
 
 private:
-    // The sum of all lights of a kind: only one can surround the scene.
+    // The sum of all lights of a kind, because only one can surround the scene.
     struct Sum {
         Rgb radiance{0.0};
         std::optional<Location> place = {};
@@ -87,7 +87,7 @@ private:
         reader::add(import_.scene.root, std::move(emitter));
     }
 
-    // The intensity of the light that falls off with the square of the distance and is as bright at the distance 1.
+    // The intensity of a light that falls off with the square of the distance and is as bright at the distance 1.
     Rgb intensity(const Element& kind, const Rgb& color) const {
         const auto attenuation = [&](const char* tag, double missing) {
             const Element* e = child(kind, tag);
@@ -132,7 +132,8 @@ private:
         reader::add(import_.scene.root, std::move(emitter));
     }
 
-    // The square [-½, ½]² of the node's x and y, facing −z. Only the sign of the normal comes from z, as in the course's program.
+    // Adds the square [-½, ½]² of the node's x and y, facing −z. As in the course's program, z only decides the sign of
+    // the normal.
     void add_area(const Instance& instance, const Element& kind, const Rgb& color) {
         const Mat4& m = instance.to_world;
         Lamp lamp{Vec3(m[3]), 0.5 * Vec3(m[0]), 0.5 * Vec3(m[1]), {}};

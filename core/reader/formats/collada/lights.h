@@ -1,4 +1,4 @@
-// Lights of the common profile and of the courses' profile.
+// Reads lights of the common profile and of the courses' profile.
 #pragma once
 
 #include "core/reader/formats/collada/import.h"
@@ -6,15 +6,15 @@
 
 namespace neumann::reader::collada {
 
-// A course's area light: center + s·a + t·b, s and t in [-1, 1], shining to the side of `normal`.
+// The area light of a course: the points center + s·a + t·b with s and t in [-1, 1], shining to the side of `normal`.
 struct Lamp {
     Vec3 center, a, b, normal;
 
-    // s, t, and the height above its plane, in units of the lamp's size.
+    // The coordinates s and t of a point, and its height above the plane in units of |a| + |b|.
     Vec3 coordinates(const Vec3& p) const;
 };
 
-// Adds emitters to the scene, and returns the area lights among them. `up`: the file's up axis, 0 to 2.
+// Adds emitters to the scene, and returns the area lights among them. `up` is the index of the file's up axis.
 std::vector<Lamp> add_lights(const std::vector<Instance>& lights, int up, const Import& import);
 
 }  // namespace neumann::reader::collada

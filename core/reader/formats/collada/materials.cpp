@@ -20,7 +20,7 @@ std::vector<const Element*> bindings_of(const Element& instance_geometry) {
     return bindings;
 }
 
-// Null if nothing is bound at all.
+// The binding of a symbol; null if nothing is bound at all, or if a part without a symbol has several bindings.
 const Element* binding_of(const Element& instance_geometry, const Attribute* symbol) {
     const std::vector<const Element*> bindings = bindings_of(instance_geometry);
     if (bindings.empty()) return nullptr;
@@ -35,7 +35,7 @@ const Element* binding_of(const Element& instance_geometry, const Attribute* sym
                                  to_string(symbol->place), join(symbols), did_you_mean(symbol->value, symbols)));
 }
 
-// The set of texture coordinates that goes by this name, if that is said.
+// The set of texture coordinates to which the name is bound, if any.
 std::optional<int> set_of(const Element& binding, const std::string& name) {
     for (const Element& e : binding.children) {
         if (e.tag != "bind_vertex_input" || required_attribute(e, "semantic").value != name) continue;

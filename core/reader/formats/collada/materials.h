@@ -1,4 +1,4 @@
-// Materials, and how an <instance_geometry> binds them to the parts of a mesh.
+// Reads materials, and how an <instance_geometry> binds them to the parts of a mesh.
 #pragma once
 
 #include "core/reader/formats/collada/meshes.h"
@@ -9,7 +9,7 @@
 namespace neumann::reader::collada {
 
 struct Bound {
-    std::string bsdf;  // id of the element in the scene; without it, that of what emits or the default one
+    std::string bsdf;  // id of the bsdf; if empty, a shape that does not emit gets the default one
     const Element* emitter = nullptr;
     Coordinates coordinates = {};
 };
@@ -18,7 +18,8 @@ class MaterialReader {
 public:
     explicit MaterialReader(const Import& import) : import_(import) {}
 
-    // Of a part with this symbol, or without one. Throws InputError if it is bound to nothing, or the material is wrong.
+    // What is bound to a part with this symbol, or without one; nothing, with a warning, if no material is. Throws
+    // InputError if only other symbols are bound, or if the material is not in the file.
     Bound bound(const Element& instance_geometry, const Attribute* symbol);
 
 private:

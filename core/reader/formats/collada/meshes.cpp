@@ -20,7 +20,7 @@ constexpr std::size_t most_offset = 63;
 
 struct Input {
     Source source;
-    std::size_t offset;  // which of a corner's indices is its own
+    std::size_t offset;  // position among the indices of a corner
     const Element* element;
 };
 
@@ -29,7 +29,7 @@ struct Inputs {
     std::size_t stride = 1;
 };
 
-// What the inputs of a primitive mean, with those of its <vertices> in place of VERTEX.
+// Reads the inputs of a primitive, with those of its <vertices> in place of VERTEX.
 class InputReader {
 public:
     InputReader(const Element& mesh, const Element& primitive, const Coordinates& wanted)
@@ -89,7 +89,7 @@ private:
     std::size_t lowest_ = 0;
 };
 
-// Numbers the different triples of indices in the order in which they come. Open addressing.
+// Numbers the different triples of indices in the order in which they come; a hash table with open addressing.
 class Vertices {
 public:
     using Key = std::array<std::uint32_t, 3>;

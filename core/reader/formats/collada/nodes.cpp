@@ -29,7 +29,7 @@ const std::array<std::string, 14> parts_of_node = {"asset",
                                                    "skew",
                                                    "translate"};
 
-// Counts how deep the reader is.
+// Counts the depth of nesting.
 class Deeper {
 public:
     explicit Deeper(int& depth) : depth_(++depth) {}
@@ -58,7 +58,7 @@ public:
             around.to_world = around.to_world * read_transforms(node);
         } catch (const InputError& problem) {
             around.is_placed = false;
-            // A camera that cannot be placed is not the end, in a file of a course.
+            // In a file of a course the camera's view may be found without its place (course_direction()).
             if (!holds_only_a_camera(node) || !file_.is_of_course()) problems_.add(problem, node.place);
         }
         around.node = &node;
@@ -84,7 +84,7 @@ private:
         problems_.attempt(use.place, [&] {
             around.use = &use;
             const Attribute& url = required_attribute(use, "url");
-            // The course's program leaves such a light out.
+            // The course's program leaves out a light that the file does not have.
             if (tag == "light" && file_.is_of_course() && url.value.starts_with('#') && !file_.known(url.value.substr(1), tag)) {
                 warnings_.add(fmt::format("the light '{}', which the file does not have, is left out, as in the course's program",
                                           url.value.substr(1)));
@@ -95,7 +95,7 @@ private:
         });
     }
 
-    // What a lenient reader does with a skin: the mesh as it was bound to its joints. A morph is left out.
+    // A lenient reader takes the mesh of a skin as it was bound to its joints, and leaves out a morph.
     void take_unbent(const Element& use, Instance around) {
         const auto fail = [&](const std::string& instead) {
             return Unknown(use.place, "<instance_controller> is not supported",

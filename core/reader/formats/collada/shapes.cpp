@@ -46,7 +46,7 @@ public:
             if (has_triangles(primitive)) import_.problems.attempt(primitive.place, [&] { add_part(instance, *mesh, primitive); });
     }
 
-    // Adds all of these to the scene: meshes that stand at several places with the same material as instances.
+    // Adds all shapes to the scene. Meshes that stand at several places with the same material become instances.
     void finish() {
         read_meshes();
         std::vector<Placed> all;
@@ -73,20 +73,20 @@ private:
     struct Mesh {
         const Element *mesh, *primitive;
         Coordinates coordinates;
-        std::shared_ptr<const MeshFile> file = {};  // null if it has no triangles, or its problem is told
-        std::string name = {};                      // once it is in the scene
+        std::shared_ptr<const MeshFile> file = {};  // null if it has no triangles or is wrong
+        std::string name = {};                      // empty until it is in the scene
 
         bool is_flat() const { return file->normals.empty(); }
     };
-    // A shape without its place and material.
+    // A shape element without its place and its material.
     struct Placed {
         Element shape;
         const Instance* instance;
         Bound bound;
-        Mesh* mesh = nullptr;  // null: a sphere
+        Mesh* mesh = nullptr;  // null for a sphere
     };
 
-    // Several at once, and not as one that a map without an inverse has moved.
+    // Whether a shape becomes an instance: it has a mesh that stands at several places, under a map with an inverse.
     bool is_shared(const Placed& placed, int places) const {
         return placed.mesh && !placed.bound.emitter && places > 1 && is_invertible(placed.instance->to_world);
     }
@@ -117,7 +117,7 @@ private:
         placed_.push_back({make_object("shape", "ply", instance.use->place), &instance, bound, &made});
     }
 
-    // Most of the time of a large file.
+    // Reads the meshes in parallel, because this takes most of the time of a large file.
     void read_meshes() {
         std::vector<Mesh*> meshes;
         for (auto& [key, mesh] : meshes_) meshes.push_back(&mesh);
@@ -128,7 +128,7 @@ private:
         });
     }
 
-    // Of a part whose mesh has been read. Returns whether it is in the scene.
+    // Completes a part whose mesh has been read. Returns whether it is in the scene.
     bool complete(Placed& part) {
         const Instance& instance = *part.instance;
         Mesh& made = *part.mesh;
@@ -157,7 +157,7 @@ private:
         return true;
     }
 
-    // Returns its name.
+    // Returns the name of the file.
     std::string add_to_files(const Mesh& made, std::shared_ptr<const MeshFile> file, const std::string& id) const {
         auto& files = import_.scene.in_memory.meshes;
         std::string name;
@@ -210,7 +210,7 @@ private:
         return std::any_of(lamps_.begin(), lamps_.end(), [&](const Lamp& lamp) {
             Bounds on_lamp;
             for (const Vec3& v : mesh.vertices) on_lamp.add(lamp.coordinates(transformed_point(instance.to_world, v)));
-            constexpr double thickness = 1e-4;  // of the lamp's size
+            constexpr double thickness = 1e-4;  // relative to the lamp's size
             return std::max(std::abs(on_lamp.low.z), std::abs(on_lamp.high.z)) <= thickness && on_lamp.low.x < 1.0 &&
                    on_lamp.high.x > -1.0 && on_lamp.low.y < 1.0 && on_lamp.high.y > -1.0;
         });

@@ -10,7 +10,7 @@ namespace neumann::reader::collada {
 
 namespace {
 
-// The element of this tag in e that has the id of a url, at any of the given depths.
+// The child of e with this tag and the id to which a url refers.
 const Element& find_inside(const Element& e, const std::string& tag, const Attribute& url) {
     std::vector<std::string> names;
     const std::string id = url.value.starts_with('#') ? url.value.substr(1) : url.value;
@@ -27,7 +27,7 @@ std::size_t count_or(const Element& e, const std::string& attribute, std::size_t
     return a ? read_count(*a) : missing;
 }
 
-// Of the parameters of an accessor those with a name are used, or all if none has one.
+// The named parameters of an accessor, or all if none has a name.
 std::vector<std::size_t> used_components(const Element& accessor) {
     std::vector<std::size_t> named;
     std::size_t all = 0;

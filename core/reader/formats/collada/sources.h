@@ -1,4 +1,4 @@
-// The arrays of a <mesh> and how its inputs read them.
+// Reads the arrays of a <mesh>, to which its inputs refer.
 #pragma once
 
 #include "core/reader/xml/element.h"
@@ -23,17 +23,17 @@ public:
 private:
     std::shared_ptr<const std::vector<double>> values_;
     std::size_t offset_, stride_, count_;
-    std::vector<std::size_t> components_;  // offsets of those with a name
+    std::vector<std::size_t> components_;  // offsets of the named components
 };
 
 class Sources {
 public:
     explicit Sources(const Element& mesh) : mesh_(mesh) {}
 
-    // The source that an <input> names, which must have as many components. Throws InputError: no such source, no numbers, too few
-    // of them.
+    // The source to which an <input> refers, which must have this many components. Throws InputError if there is no
+    // such source or no numbers, or too few of them.
     Source find(const Element& input, std::size_t components);
-    // The <vertices> that an <input> names.
+    // The <vertices> to which an <input> refers.
     const Element& vertices(const Element& input) const;
 
 private:

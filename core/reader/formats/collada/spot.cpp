@@ -15,7 +15,7 @@ Mat4 facing_back(const Mat4& node) {
 
 double spot_beam_width(double cutoff, double exponent) {
     if (exponent == 0.0) return cutoff;
-    // Powers over 2π and the intensity on the axis.
+    // Powers are divided by 2π and by the intensity on the axis.
     const double c = glm::radians(cutoff);
     const double wanted = (1.0 - std::pow(std::cos(c), exponent + 1.0)) / (exponent + 1.0);
     const auto power = [&](double beam) { return 1.0 - (std::sin(c) - std::sin(beam)) / (c - beam); };

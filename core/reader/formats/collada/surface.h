@@ -1,4 +1,4 @@
-// What a material is made of: the elements of a Mitsuba file that say the same.
+// The parts of a material, as elements of a Mitsuba file.
 #pragma once
 
 #include "core/reader/formats/collada/import.h"
@@ -10,19 +10,19 @@
 namespace neumann::reader::collada {
 
 struct Surface {
-    std::optional<Element> bsdf;             // without it, nothing is reflected
+    std::optional<Element> bsdf;             // nothing is reflected if missing
     std::optional<Element> emitter;          // <emitter type="area">
-    std::set<std::string> coordinates = {};  // that its textures ask for, by the names in <texture texcoord>
+    std::set<std::string> coordinates = {};  // the names in <texture texcoord> that its textures use
 };
 
-// By <profile_COMMON>. `name` of the material, for warnings.
+// Reads <profile_COMMON>. `name` is that of the material, for warnings.
 Surface read_common_effect(const Element& effect, const std::string& name, const Import& import);
-// By a course's technique (course_technique()). Throws InputError.
+// Reads a course's technique (course_technique()). Throws InputError.
 Surface read_course_effect(const Element& technique, const std::string& name, const Import& import);
 
-// A bsdf that reflects on both sides.
+// Makes a bsdf reflect on both sides.
 Element two_sided(Element bsdf);
-// The diffuse one of a surface without material.
+// The diffuse bsdf of a surface without material.
 Element default_bsdf(const Location& place);
 
 }  // namespace neumann::reader::collada

@@ -60,7 +60,7 @@ Location place_of_word(const Element& e, std::size_t word) {
     throw InputError(place_of_word(e, number), fmt::format("'{}' {}", word, what));
 }
 
-// Calls take(begin, end) with the rest of the text at each word; it returns the end of what it has read.
+// Calls take(begin, end) with the rest of the text at each word; `take` returns the end of the word it has read.
 template <class Take>
 void read_words(const Element& e, const Take& take) {
     const char *at = e.text.data(), *const end = at + e.text.size();

@@ -1,4 +1,5 @@
-// What the texts of COLLADA's elements say: numbers between blanks. All functions throw InputError, at the word that is wrong.
+// Reads the texts of COLLADA's elements: numbers between blanks. All functions throw InputError at the word that is
+// wrong.
 #pragma once
 
 #include "core/base/vec.h"
@@ -10,25 +11,25 @@
 
 namespace neumann::reader::collada {
 
-// Without the blanks around it.
+// The text without the blanks around it.
 std::string trimmed_text(const Element& e);
 
-std::vector<double> read_numbers(const Element& e);  // finite
+std::vector<double> read_numbers(const Element& e);  // all finite
 std::vector<double> read_numbers(const Element& e, std::size_t expected);
 double read_number(const Element& e);
-// Not negative, below 2³².
+// The numbers are not negative and below 2³².
 std::vector<std::uint32_t> read_indices(const Element& e);
-// Three numbers, or four of which the last is alpha; the colours must not be negative.
+// A colour of three numbers, or of four of which the last is alpha; none of the three may be negative.
 struct Color {
     Rgb rgb{0.0};
     double alpha = 1.0;
 };
 Color read_color(const Element& e);
 
-// "<float_array> has 11 numbers, expected 12", at the element.
+// The error "<float_array> has 11 numbers, expected 12", at the element.
 InputError wrong_count(const Element& e, std::size_t found, const std::string& expected);
 
-// An attribute that is a whole number, not negative.
+// Reads an attribute that is a whole number and not negative.
 std::size_t read_count(const Attribute& a);
 
 }  // namespace neumann::reader::collada

@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The element with the file's name or address, of an <image>.
+// The element with the name or address of the file of an <image>.
 const Element& address_of(const Element& image) {
     if (const Element* data = child(image, "data"))
         throw InputError(data->place, "a picture in the file, <data>, is not supported; expected the name of a file, <init_from>");
@@ -25,7 +25,7 @@ const Element& address_of(const Element& image) {
     return ref ? *ref : init;
 }
 
-// Where a picture is not at the place of its name, such as one on another machine, it may be beside the scene.
+// A picture that is not where its name says, such as one on another machine, may be beside the scene.
 std::string find_picture(const Element& address, const Import& import) {
     const std::string given = trimmed_text(address), path = path_of_uri(given);
     const fs::path folder = fs::path(address.place.file).parent_path();
@@ -68,7 +68,7 @@ std::string wrap_mode(const Element& sampler, const Import& import) {
     return across;
 }
 
-// Maya's and others' placement of a picture, which changes it where a number is not the usual one.
+// Warns of numbers with which Maya and others place a picture, unless they are the usual ones.
 void warn_of_placement(const Element& texture, const Import& import) {
     static const std::array<std::pair<std::string, std::string>, 9> usual = {{{"repeatU", "1"},
                                                                               {"repeatV", "1"},
@@ -119,7 +119,7 @@ const Element& Parameters::find(const std::string& sid, const Location& place) c
 Element make_bitmap(const Element& texture, const std::string& name, const Parameters& parameters, const Import& import) {
     const Attribute& sampler_name = required_attribute(texture, "texture");
     const Element* parameter = parameters.known(sampler_name.value);
-    // Some programs name the picture itself.
+    // Some programs refer to the picture itself.
     if (!parameter && !import.file.known(sampler_name.value, "image")) parameters.find(sampler_name.value, sampler_name.place);
     const Element* sampler = parameter ? &required_child(*parameter, "sampler2D") : nullptr;
     const Element& image = sampler ? sampler_image(*sampler, parameters, import.file) : import.file.find(sampler_name, "image");

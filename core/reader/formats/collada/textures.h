@@ -1,4 +1,4 @@
-// <texture>: by way of a sampler and a surface to a picture.
+// Follows a <texture>, by way of a sampler and a surface, to a picture.
 #pragma once
 
 #include "core/reader/formats/collada/import.h"
@@ -21,7 +21,7 @@ private:
     std::map<std::string, const Element*> parameters_;
 };
 
-// <texture type="bitmap" name=…>. Throws InputError.
+// Makes <texture type="bitmap" name=…>. Throws InputError.
 Element make_bitmap(const Element& texture, const std::string& name, const Parameters& parameters, const Import& import);
 
 }  // namespace neumann::reader::collada

@@ -25,7 +25,7 @@ Mat4 read_rotation(const Element& e) {
     return glm::rotate(Mat4(1.0), glm::radians(v[3]), axis / max_component(glm::abs(axis)));
 }
 
-// Where a node is, what its −z points at, and what is up.
+// <lookat> holds the node's place, the point at which its −z looks, and what is up.
 Mat4 read_lookat(const Element& e) {
     const std::vector<double> v = read_numbers(e, 9);
     const Vec3 origin(v[0], v[1], v[2]), target(v[3], v[4], v[5]), up(v[6], v[7], v[8]);

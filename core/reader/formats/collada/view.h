@@ -1,4 +1,4 @@
-// Views that the file does not give: of the whole scene.
+// Views of the whole scene, which the file does not give.
 #pragma once
 
 #include "core/geometry/bounds.h"
@@ -8,15 +8,16 @@
 
 namespace neumann::reader::collada {
 
-// A camera that looks at the middle of the scene, three times the radius of the sphere around its box away, as the courses' program
-// places it. `from`: the direction in which it stands, not 0; `up`: an axis, 0 to 2. Mitsuba's to_world.
+// Mitsuba's to_world of a camera that looks at the middle of the scene, at a distance of three times the radius of the
+// sphere around its box, as the courses' program places it. `from` is the direction from the scene to the camera, not
+// 0, and `up` the index of an axis.
 Mat4 view_of(const Bounds& scene, const Vec3& from, int up);
 
-// The direction in which the courses' program places a camera of the file: it adds the place of the camera and its view, in the
-// file's units. It reads what there is of a matrix with too few numbers. Nothing if that is zero or unknown.
+// The direction in which the courses' program places a camera: the sum of the camera's position and its direction of
+// view, in the file's units. Of a broken matrix the first 12 numbers are used. Nothing if the sum is 0 or unknown.
 std::optional<Vec3> course_direction(const Instance& camera);
 
-// In front of the scene, by the custom of the up axis: for files without a camera.
+// The direction that is in front of the scene by the custom of the up axis, for files without a camera.
 Vec3 front(int up);
 
 }  // namespace neumann::reader::collada

@@ -17,7 +17,7 @@ namespace {
 
 enum Component { i8 = 5120, u8 = 5121, i16 = 5122, u16 = 5123, u32 = 5125, f32 = 5126 };
 
-// Calls f with a zero of the type.
+// Calls f with a zero of the component's type.
 template <class F>
 void with_type(int component, const F& f) {
     switch (component) {
@@ -40,7 +40,7 @@ std::size_t bytes_of(int component) {
     return component == i8 || component == u8 ? 1 : component == i16 || component == u16 ? 2 : 4;
 }
 
-constexpr std::int64_t largest = std::int64_t{1} << 53;  // of the whole numbers that JSON has for sure
+constexpr std::int64_t largest = std::int64_t{1} << 53;  // JSON is sure to have whole numbers up to this
 
 std::size_t required(JsonObject& object, const std::string& name, std::int64_t least) {
     const auto value = object.integer(name, least, largest);
@@ -89,10 +89,10 @@ struct Accessors::Stored {
     std::size_t count = 0, width = 1, stride = 0;
     int component = f32;
     bool is_normalized = false;
-    std::string_view bytes = {};  // empty: all zero
+    std::string_view bytes = {};  // empty: all numbers are 0
     std::optional<JsonObject> sparse = {};
 
-    // Calls put(index of the element, of the component in it, value).
+    // Calls put(index of the element, index of the component in it, value).
     template <class Put, class PlaceOf>
     void decode(std::string_view from, std::size_t number, std::size_t step, const PlaceOf& place_of, const Put& put) const {
         with_type(component, [&]<class T>(T value) {
@@ -143,7 +143,7 @@ std::string_view Accessors::bytes_of_view(std::size_t view) {
     if (!buffer) object.fail_missing("buffer", "the index of one");
     const std::size_t begin = offset(object), length = required(object, "byteLength", 1);
     object.ignore({"name", "target", "byteStride"});
-    // Beside what is compressed there may be the same as it is.
+    // The file may have the same data uncompressed.
     const bool is_there = buffers_.object(*buffer).has("uri") || (*buffer == 0 && file_.binary());
     for (const char* compression : {"EXT_meshopt_compression", "KHR_meshopt_compression"})
         if (object.extension(compression) && !is_there) fail_compressed(compression, object.place(), object.notes());

@@ -1,4 +1,5 @@
-// The numbers of a glTF file: buffers, views of buffers, and accessors, which say how the bytes of a view are to be read.
+// Reads the numbers of a glTF file: buffers, views of buffers, and accessors, which say how the bytes of a view are to
+// be read.
 #pragma once
 
 #include "core/reader/formats/gltf/gltf_file.h"
@@ -13,7 +14,7 @@
 
 namespace neumann::reader::gltf {
 
-// `width` numbers each.
+// Elements of `width` numbers each.
 struct Numbers {
     std::size_t width = 0;
     std::vector<float> values = {};
@@ -22,24 +23,24 @@ struct Numbers {
     const float* operator[](std::size_t i) const { return &values[i * width]; }
 };
 
-// All functions throw InputError where an index is none of the file's or leads beyond the bytes that are there, and Told where that
-// has been told before.
+// All functions throw InputError if an index is not in the file or leads beyond the bytes that are there, and Told if
+// that has been reported before.
 class Accessors {
 public:
-    // `files`: gets the names of those that are read.
+    // `files` receives the names of the files that are read.
     Accessors(const GltfFile& file, const std::string& path, JsonObject& root, std::vector<std::string>& files);
 
     const JsonList& list() const { return accessors_; }
     const JsonList& views() const { return views_; }
     std::string_view bytes_of_view(std::size_t view);
 
-    // Read once; whole numbers are divided by the largest of their type where the accessor is `normalized`. `types`: "VEC3" or the
-    // like, of which the accessor has to have one. All are finite.
+    // The numbers of an accessor, all finite and read once. Whole numbers are divided by the largest of their type if
+    // the accessor is `normalized`. The accessor must have one of these `types`, such as "VEC3".
     std::shared_ptr<const Numbers> numbers(std::size_t accessor, const std::vector<std::string>& types);
-    // Whole numbers, such as the vertices of triangles.
+    // Reads whole numbers, such as the vertices of triangles.
     std::vector<std::uint32_t> indices(std::size_t accessor);
-    // Without reading it.
-    bool has_numbers(std::size_t accessor) const;  // or only zeros
+    // These do not read the numbers.
+    bool has_numbers(std::size_t accessor) const;  // false: all are 0
     std::size_t count(std::size_t accessor) const;
 
 private:
@@ -54,7 +55,7 @@ private:
     const std::string& path_;
     std::vector<std::string>& files_;
     JsonList buffers_, views_, accessors_;
-    std::map<std::size_t, std::optional<std::string>> contents_;  // of buffers that are no part of the file; nothing: told
+    std::map<std::size_t, std::optional<std::string>> contents_;  // of buffers with a URI; nothing: a reported error
     std::map<std::size_t, std::shared_ptr<const Numbers>> numbers_;
 };
 

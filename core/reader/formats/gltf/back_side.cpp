@@ -8,7 +8,7 @@ namespace neumann::reader::gltf {
 
 namespace {
 
-// The sum of the normals of its triangles, each as long as twice the triangle's area.
+// At each vertex the sum of the normals of its triangles, each as long as twice the triangle's area.
 std::vector<Vec3> normals_of(const TriangleMesh& mesh) {
     std::vector<Vec3> normals(mesh.vertices.size(), Vec3(0.0));
     for (const auto& t : mesh.triangles) {

@@ -35,7 +35,7 @@ double positive(JsonObject& object, const std::string& name) {
     throw InputError(object.place_of(name), fmt::format("{} is {}, expected more than 0", name, *value));
 }
 
-// What is never cut off there is cut off where no scene is.
+// The clipping distance of a camera without one; no scene is that large.
 constexpr double far_away = 1e9;
 
 double add_perspective(Element& sensor, JsonObject camera) {
@@ -93,13 +93,13 @@ void add_camera(Element& scene, const Placed& placed, JsonObject camera, const s
     add(scene, std::move(sensor));
 }
 
-// Of a camera where it stands: its node's name, or its own.
+// The name of a camera is that of its node, or its own.
 std::string name_of(const Placed& placed, const JsonList& cameras) {
     if (!placed.name.empty()) return placed.name;
     return cameras.object(placed.what).text("name").value_or("");
 }
 
-// The first if there is none like that, which is told.
+// The index of the camera of this name or number; 0, and a problem, if there is none.
 std::size_t choose(const std::string& wish, const std::vector<std::string>& names, const Location& place, Problems& problems) {
     if (const auto found = std::find(names.begin(), names.end(), wish); found != names.end())
         return static_cast<std::size_t>(found - names.begin());
@@ -124,7 +124,7 @@ void add_camera(Element& scene, const std::vector<Placed>& placed, const JsonLis
         notes.warnings.add(fmt::format("several cameras: {}; the first is taken, and -D camera=NAME takes another", join(names)));
     std::string id;
     if (placed.size() > 1 || is_wished) {
-        // As the sensor's id, the definition is used.
+        // Its use as the sensor's id counts as a use of -D camera.
         add(scene, {"default", {{"name", "camera", scene.place}, {"value", "camera", scene.place}}, {}, scene.place});
         id = "$camera";
     }

@@ -16,8 +16,8 @@ constexpr std::array<std::string_view, 14> known = {
     "KHR_materials_sheen",      "KHR_materials_specular", "KHR_materials_transmission",      "KHR_materials_unlit",
     "KHR_materials_volume",     "KHR_texture_transform"};
 
-// Quantized meshes need nothing but what accessors can do anyway. Textures in other formats have a PNG or a JPEG beside them, or
-// else lack their source, which is told.
+// Accessors read quantized meshes without an extension. Textures in other formats have a PNG or a JPEG beside them, or
+// else lack their source, which is reported.
 constexpr std::array<std::string_view, 9> without_effect = {
     "KHR_animation_pointer", "KHR_materials_variants", "KHR_mesh_quantization", "KHR_texture_basisu", "KHR_xmp",
     "KHR_xmp_json_ld",       "EXT_texture_webp",       "EXT_texture_avif",      "MSFT_texture_dds"};

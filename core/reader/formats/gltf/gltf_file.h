@@ -1,4 +1,4 @@
-// A glTF file as it is on the disk.
+// A glTF file as it is on disk.
 #pragma once
 
 #include "core/base/error.h"
@@ -11,7 +11,7 @@
 
 namespace neumann::reader::gltf {
 
-// A .gltf, which is JSON, or a .glb, by its first bytes. Throws InputError where it is neither.
+// A .gltf, which is JSON, or a .glb, as the first bytes tell. Throws InputError if it is neither.
 class GltfFile {
 public:
     explicit GltfFile(const std::string& path);
@@ -23,7 +23,7 @@ public:
     }
 
 private:
-    // The JSON of a .glb.
+    // Returns the JSON of a .glb.
     std::string_view open_glb(const std::string& path);
 
     std::string bytes_;

@@ -15,7 +15,7 @@ namespace {
 
 using namespace gltf;
 
-// What else there is cannot be understood if the version is another.
+// If the version is another, the rest of the file cannot be understood.
 void check_version(JsonObject& root) {
     auto asset = root.object("asset");
     if (!asset) root.fail_missing("asset", "an object with the version of glTF, 2.0");
@@ -29,7 +29,7 @@ void check_version(JsonObject& root) {
     if (least) check("minVersion", *least);
 }
 
-// The places of each mesh, the meshes in the order in which the tree comes to them.
+// The places of each mesh, in the order in which the tree comes to the meshes.
 std::vector<std::vector<Placed>> by_mesh(const std::vector<Placed>& all) {
     std::vector<std::vector<Placed>> result;
     std::map<std::size_t, std::size_t> order;

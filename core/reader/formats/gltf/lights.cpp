@@ -43,7 +43,7 @@ Element make_light(const Placed& placed, JsonObject light) {
     if (type == "point") {
         add_point(e, "position", Vec3(placed.to_world[3]), placed.place);
     } else {
-        Mat4 to_world = without_scale(placed);  // which looks along −z, and Mitsuba's along z
+        Mat4 to_world = without_scale(placed);  // glTF's lights look along −z, Mitsuba's along z
         to_world[0] = -to_world[0];
         to_world[2] = -to_world[2];
         add_matrix(e, "to_world", to_world, placed.place);

@@ -52,7 +52,7 @@ private:
         return e;
     }
 
-    // A sheet, through which light goes straight on.
+    // A thin sheet, through which light goes straight on.
     Element thin() {
         warnings_.add(
             "KHR_materials_transmission without KHR_materials_volume: a thin sheet of glass, as glTF means it; a "
@@ -68,8 +68,8 @@ private:
         return e;
     }
 
-    // Of a dielectric that reflects so much of the light that meets it at right angles. Without any boundary Mitsuba's metals
-    // reflect nothing, either.
+    // The index of a dielectric that reflects as much at normal incidence as the material. For metals it is above 1,
+    // because Mitsuba's metals reflect nothing without a boundary.
     double index_by_reflectance() const {
         constexpr double largest = 0.99, least_of_metals = 1.0001;
         const double root = std::min(std::sqrt(m_.specular) * (m_.eta - 1.0) / (m_.eta + 1.0), largest);
@@ -127,7 +127,7 @@ private:
             return wrap([&](Element& e) { add_float(e, "opacity", opacity, m_.place); });
         }
         Texture texture = *m_.base_texture;
-        if (is_cut_out) texture.is_nearest = true;  // between the texels nothing is half opaque
+        if (is_cut_out) texture.is_nearest = true;  // nothing between the texels is half opaque
         const std::string name =
             is_cut_out ? pictures_.cut_out(texture.image, m_.alpha, m_.cutoff) : pictures_.channel(texture.image, 3, m_.alpha);
         return wrap([&](Element& e) { add(e, make_bitmap(texture, "opacity", name, true)); });

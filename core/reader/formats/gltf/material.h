@@ -8,7 +8,7 @@
 
 namespace neumann::reader::gltf {
 
-// A number, and a texture whose channel it multiplies.
+// A number, and a texture of which one channel is multiplied by it.
 struct Amount {
     double factor = 0.0;
     std::optional<Texture> texture = {};
@@ -35,9 +35,9 @@ struct Material {
     bool is_double_sided = false;
 
     double eta = 1.5;
-    double specular = 1.0;  // times the dielectric's reflectance
+    double specular = 1.0;  // factor of the dielectric's reflectance
     Amount transmission = {};
-    bool is_solid = false;  // what lets light through is the boundary of a body, and not a thin sheet
+    bool is_solid = false;  // light passes the boundary of a body, not a thin sheet
     double clearcoat = 0.0, clearcoat_gloss = 1.0;
     double sheen = 0.0;
 
@@ -46,7 +46,8 @@ struct Material {
     std::vector<const Texture*> textures() const;
 };
 
-// Tells what is wrong with it, and reads on without that. Warns of what has an effect and is approximated or left out.
+// Reports what is wrong with the material, and reads on without it. Warns of what has an effect and is approximated or
+// left out.
 Material read_material(JsonObject object, const Textures& textures);
 
 }  // namespace neumann::reader::gltf

@@ -34,7 +34,7 @@ double largest_of(const glm::dmat3& m) {
     return max_component({max_component(glm::abs(m[0])), max_component(glm::abs(m[1])), max_component(glm::abs(m[2]))});
 }
 
-// Nothing if its length is not 1, or almost.
+// The quaternion at length 1, or nothing if its length is far from that.
 std::optional<glm::dquat> unit_quaternion(const glm::dquat& q) {
     const double length = glm::length(q);
     return std::abs(length - 1.0) < 0.1 ? std::optional(q / length) : std::nullopt;
@@ -61,7 +61,7 @@ Mat4 local_transform(JsonObject& node) {
                       Vec3(s[0], s[1], s[2]));
 }
 
-// Of EXT_mesh_gpu_instancing: in the space of the node.
+// Reads EXT_mesh_gpu_instancing: maps in the space of the node.
 std::vector<Mat4> read_instances(JsonObject& instancing, Accessors& accessors) {
     auto attributes = instancing.object("attributes");
     instancing.finish();
@@ -72,7 +72,7 @@ std::vector<Mat4> read_instances(JsonObject& instancing, Accessors& accessors) {
     };
     const auto translations = read("TRANSLATION", "VEC3"), rotations = read("ROTATION", "VEC4"), scales = read("SCALE", "VEC3");
     for (const std::string& name : attributes->names())
-        if (name.starts_with('_')) attributes->value(name);  // an application's own
+        if (name.starts_with('_')) attributes->value(name);  // an application's own attribute
     attributes->finish();
     std::optional<std::size_t> count;
     for (const auto& numbers : {translations, rotations, scales}) {
@@ -128,7 +128,7 @@ private:
         Mat4 above;
     };
 
-    // Of the scene; the last to be visited first.
+    // The roots of the scene, in reverse, because the last one is visited first.
     std::vector<Pending> roots() {
         const JsonList scenes = root_.list("scenes");
         std::size_t number = 0;
@@ -187,7 +187,7 @@ private:
         result_.meshes.push_back(placed);
     }
 
-    // Only where all joints have moved the mesh alike since it was bound, as in the pose in which it was.
+    // Places a mesh that is bound to joints. All joints must have moved it alike, as in the pose in which it was bound.
     void place_skinned(Placed placed, std::size_t skin_index) {
         JsonObject skin = skins_.object(skin_index);
         const std::vector<std::size_t> joints = skin.indices("joints", nodes_, "node");
@@ -222,7 +222,7 @@ private:
     JsonList nodes_, meshes_, cameras_, skins_;
     const JsonList& lights_;
     Accessors& accessors_;
-    std::map<std::size_t, Mat4> world_;  // of those that were visited
+    std::map<std::size_t, Mat4> world_;  // of the nodes visited so far
     std::vector<std::pair<Placed, std::size_t>> skinned_;
     Nodes result_;
 };
@@ -244,7 +244,7 @@ void refuse_morphs(const JsonList& weights, Problems& problems) {
 Mat4 without_scale(const Placed& placed) {
     Mat4 m = placed.to_world;
     if (!is_invertible(m)) throw InputError(placed.place, "the node has no direction: its scale is 0");
-    // The third axis is where cameras and lights look along.
+    // Cameras and lights look along the third axis, which keeps its direction.
     const Vec3 z = glm::normalize(Vec3(m[2]) / largest_of(glm::dmat3(m)));
     const Vec3 x = glm::normalize(glm::cross(Vec3(m[1]) / largest_of(glm::dmat3(m)), z));
     m[0] = glm::dvec4(x, 0.0);

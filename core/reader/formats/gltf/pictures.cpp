@@ -24,12 +24,12 @@ double value_of(const Texels& t, std::size_t texel, int channel) {
     return t.bytes.empty() ? static_cast<double>(t.values[i]) : t.bytes[i] / 255.0;
 }
 
-// In place of a picture that is not known.
+// The picture in place of one that is not known.
 const auto grey = std::make_shared<const Texels>(Texels{1, 1, 4, {}, {0.5f, 0.5f, 0.5f, 1.0f}});
 
 std::size_t texel_count(const Texels& t) { return static_cast<std::size_t>(t.width) * static_cast<std::size_t>(t.height); }
 
-// A picture of the same size, by value(texel, channel).
+// A picture of the same size with the numbers value(texel, channel).
 template <class Value>
 Texels of_values(const Texels& t, int channels, const Value& value) {
     Texels result{t.width, t.height, channels};
@@ -39,7 +39,7 @@ Texels of_values(const Texels& t, int channels, const Value& value) {
     return result;
 }
 
-// The same for bytes, which are kept.
+// A picture of some of the channels, which stay sRGB bytes.
 Texels pick_bytes(const Texels& t, int first, int channels) {
     Texels result{t.width, t.height, channels};
     result.is_encoded = true;

@@ -17,7 +17,7 @@ using SharedNumbers = std::shared_ptr<const Numbers>;
 
 enum Mode { triangles = 4, strip = 5, fan = 6 };
 
-// Corners counter-clockwise, as the specification orders them.
+// The corners are counter-clockwise, as the specification orders them.
 std::vector<Corners> triangles_of(const std::vector<std::uint32_t>& v, std::int64_t mode) {
     std::vector<Corners> result;
     if (mode == triangles) {
@@ -32,14 +32,14 @@ std::vector<Corners> triangles_of(const std::vector<std::uint32_t>& v, std::int6
     return result;
 }
 
-// What the vertices have. Null where they do not.
+// The attributes of the vertices; null if missing.
 struct Vertices {
     SharedNumbers positions, normals = {}, coordinates = {}, colors = {};
 };
 
 Vec3 vector_at(const Numbers& n, std::size_t i) { return {n[i][0], n[i][1], n[i][2]}; }
 
-// The mesh of these triangles, with those vertices that they use, in their order.
+// The mesh of these triangles, with the vertices that they use, in their order.
 MeshFile mesh_of(const std::vector<Corners>& corners, const Vertices& vertices, const Rgb& factor) {
     MeshFile file;
     std::uint32_t least = std::numeric_limits<std::uint32_t>::max(), most = 0;
@@ -74,7 +74,7 @@ MeshFile mesh_of(const std::vector<Corners>& corners, const Vertices& vertices, 
     return file;
 }
 
-// Whether a picture would be seen mirrored: v grows downwards.
+// Whether a picture on the triangle is seen mirrored; v grows downwards.
 bool is_mirrored(const Corners& t, const Numbers& uv) {
     const auto at = [&](std::uint32_t i) { return Vec2(uv[i][0], uv[i][1]); };
     const Vec2 a = at(t[1]) - at(t[0]), b = at(t[2]) - at(t[0]);
@@ -158,12 +158,12 @@ private:
         for (const std::string& name : attributes.names())
             for (const char* beginning : {"_", "TEXCOORD_", "COLOR_", "JOINTS_", "WEIGHTS_"})
                 if (name.starts_with(beginning)) attributes.ignore({name});
-        attributes.ignore({"TANGENT"});  // they follow from the texture coordinates
+        attributes.ignore({"TANGENT"});  // tangents follow from the texture coordinates
         attributes.finish();
         return v;
     }
 
-    // Of vertex colours that have an effect and that a material can show.
+    // Reads vertex colours, if they have an effect and the material can show them.
     SharedNumbers read_colors(JsonObject& attributes, std::size_t count) {
         SharedNumbers colors = find(attributes, "COLOR_0", {"VEC3", "VEC4"}, count);
         if (!colors) return nullptr;
@@ -182,7 +182,7 @@ private:
         return nullptr;
     }
 
-    // Which texture coordinates the material uses.
+    // The set of texture coordinates that the material uses.
     std::optional<int> coordinate_set() {
         std::optional<int> set;
         for (const Texture* t : material_.textures()) {

@@ -15,9 +15,9 @@ struct PrimitiveMesh {
     OnMesh traits = {};
 };
 
-// The vertices that triangles use. Two meshes where a normal map lies the right way round on some triangles and mirrored on others;
-// none where there are no triangles, with a warning. `material`: whose textures choose the texture coordinates, and whose base
-// colour is multiplied into vertex colours. Throws InputError.
+// Returns the triangles with the vertices that they use: two meshes if a normal map lies the right way round on some
+// triangles and mirrored on others, and none, with a warning, if there are no triangles. The textures of `material`
+// choose the texture coordinates, and its base colour is multiplied into vertex colours. Throws InputError.
 std::vector<PrimitiveMesh> read_primitive(JsonObject primitive, Accessors& accessors, const Material& material);
 
 }  // namespace neumann::reader::gltf

@@ -50,7 +50,7 @@ void read_volume(JsonObject o, Material& m) {
     if (const auto distance = o.find_number("attenuationDistance", not_negative);
         distance && m.is_solid && color != Rgb(1.0) && !m.transmission.is_zero())
         warn(o, "KHR_materials_volume: what a body absorbs (attenuationColor) left out");
-    o.ignore({"thicknessTexture"});  // for those who cannot tell from the mesh how thick it is
+    o.ignore({"thicknessTexture"});  // for programs that cannot tell the thickness from the mesh
     o.finish();
 }
 
@@ -83,7 +83,7 @@ void read_sheen(JsonObject o, const Textures& textures, Material& m) {
     o.finish();
 }
 
-// Left out with a warning where it does something: an extension, and the factor that says how much.
+// Leaves out an extension, with a warning unless the factor that says how strong it is, is 0.
 void leave_out(JsonObject& material, const std::string& extension, const std::string& factor, const std::string& what) {
     auto o = material.extension(extension);
     if (!o || o->number(factor, 0.0) == 0.0) return;
@@ -110,7 +110,7 @@ void read_emission(JsonObject& o, const Textures& textures, Material& m) {
     }
 }
 
-// Matt, of reflectance 0.5.
+// Makes the material diffuse, of reflectance 0.5.
 void make_grey(Material& m) {
     m.base = Rgb(0.5);
     m.base_texture = std::nullopt;
@@ -168,7 +168,7 @@ Material read_material(JsonObject o, const Textures& textures) {
     m.is_double_sided = o.boolean("doubleSided", false);
     read_emission(o, textures, m);
     read_extensions(o, textures, m);
-    o.ignore({"occlusionTexture"});  // light that does not come is what the operators find out
+    o.ignore({"occlusionTexture"});  // the operators find out themselves where no light comes
     o.finish();
 
     if (m.metallic.is_zero() && m.roughness.is_zero()) m.metallic.texture = m.roughness.texture = std::nullopt;

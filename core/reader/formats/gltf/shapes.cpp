@@ -27,7 +27,7 @@ Bounds bounds_of(const TriangleMesh& mesh) {
     return bounds;
 }
 
-// Of the corners.
+// The bounds of the transformed corners of b.
 Bounds transformed(const Bounds& b, const Mat4& m) {
     Bounds result;
     for (int i = 0; i < 8; ++i)
@@ -78,7 +78,8 @@ std::string Shapes::bsdf_of(Element& scene, const Material& material, const OnMe
     return found->second;
 }
 
-// As much as the rest of the program keeps for them.
+// Throws InputError if the triangles need more than half of the memory; the rest of the program keeps this many bytes
+// for each.
 void Shapes::expect_memory_for(const MeshFile& file, const Location& place) {
     constexpr double bytes_of_triangle = 300.0, part_of_memory = 0.5;
     triangles_ += static_cast<double>(file.mesh.triangles.size());
@@ -136,7 +137,7 @@ std::optional<Element> Shapes::make_shape(const Part& part, const Placed* placed
     if (is_flat) add_boolean(e, "face_normals", true, part.place);
     if (placed && !is_laid_flat) {
         add_matrix(e, "to_world", placed->to_world, placed->place);
-        // A mesh in a mirror shows the same side; with normals it is turned to their side anyway.
+        // A mesh in a mirror shows the same side. One with normals is turned to their side anyway.
         if (is_flat && glm::determinant(glm::dmat3(placed->to_world)) < 0.0) add_boolean(e, "flip_normals", true, placed->place);
     }
     add_reference(e, part.bsdf, part.place);

@@ -1,4 +1,4 @@
-// The meshes of a glTF file as <shape>s, and the materials on them.
+// Adds the meshes of a glTF file as <shape>s, with their materials.
 #pragma once
 
 #include "core/geometry/bounds.h"
@@ -16,14 +16,14 @@ class Shapes {
 public:
     Shapes(JsonObject& root, Accessors& accessors, Pictures& pictures, FilesInMemory& in_memory);
 
-    // Adds a mesh, wherever it stands, and the materials that are not there yet to the scene. A mesh that stands in several places
+    // Adds a mesh at all of its places to the scene, and the materials that are not there yet. A mesh at several places
     // becomes a group and instances of it; what emits becomes copies.
     void add(Element& scene, std::size_t mesh, const std::vector<Placed>& places);
 
     const Bounds& bounds() const { return bounds_; }
 
 private:
-    // A mesh of one material.
+    // The part of a mesh that has one material.
     struct Part {
         Location place;
         std::string name, filename, bsdf;
@@ -35,7 +35,7 @@ private:
     const Material& material_of(JsonObject& primitive);
     std::string bsdf_of(Element& scene, const Material& material, const OnMesh& mesh);
     std::string add_file(const std::string& name, std::shared_ptr<const MeshFile> file);
-    // Nothing, with a warning, where a map without an inverse leaves no area.
+    // Returns nothing, with a warning, if a map without an inverse leaves no area.
     std::optional<Element> make_shape(const Part& part, const Placed* placed);
     void expect_memory_for(const MeshFile& file, const Location& place);
 
@@ -46,9 +46,9 @@ private:
     Pictures& pictures_;
     FilesInMemory& in_memory_;
     Names mesh_names_, ids_;
-    std::map<std::size_t, std::unique_ptr<const Material>> known_materials_;  // null: has been told
+    std::map<std::size_t, std::unique_ptr<const Material>> known_materials_;  // null: a reported error
     const Material default_material_;
-    std::map<std::pair<const Material*, OnMesh>, std::string> bsdfs_;  // ids; empty: has been told
+    std::map<std::pair<const Material*, OnMesh>, std::string> bsdfs_;  // ids; empty: a reported error
     Bounds bounds_;
     double triangles_ = 0.0;
 };

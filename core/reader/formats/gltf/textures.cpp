@@ -20,7 +20,7 @@ std::string wrap_mode(JsonObject& sampler, const std::string& name) {
     return "repeat";
 }
 
-// KHR_texture_transform: scales, rotates from v towards u, and moves.
+// KHR_texture_transform scales, rotates from v towards u, and moves.
 void read_transform(JsonObject info, Texture& texture) {
     const auto offset = info.numbers("offset", {0.0, 0.0}), scale = info.numbers("scale", {1.0, 1.0});
     const double angle = info.number("rotation", 0.0), c = std::cos(angle), s = std::sin(angle);
@@ -55,7 +55,7 @@ std::optional<Texture> Textures::read(JsonObject info) const {
     result.coordinates = static_cast<int>(info.integer("texCoord", 0, 99).value_or(0));
     if (auto transform = info.extension("KHR_texture_transform")) read_transform(*transform, result);
     result.amount = info.number("scale", 1.0);
-    info.ignore({"strength"});  // of occlusion
+    info.ignore({"strength"});  // strength of occlusion
     const auto index = info.index("index", textures_, "texture");
     if (!index) info.fail_missing("index", "that of a texture");
     info.finish();

@@ -1,4 +1,4 @@
-// What a material says of its textures: which picture, at which texture coordinates.
+// Reads the textures of a material: which picture, at which texture coordinates.
 #pragma once
 
 #include "core/reader/formats/gltf/pictures.h"
@@ -12,7 +12,7 @@ namespace neumann::reader::gltf {
 struct Texture {
     Location place = {};
     std::size_t image = 0;
-    int coordinates = 0;  // of TEXCOORD_0 and so on
+    int coordinates = 0;  // the set TEXCOORD_n
     Mat4 to_uv{1.0};
     std::string wrap = "repeat";
     bool is_nearest = false;
@@ -24,7 +24,7 @@ public:
     Textures(JsonObject& root, const Pictures& pictures)
         : textures_(root.list("textures")), samplers_(root.list("samplers")), images_(pictures.list()) {}
 
-    // The texture that a property asks for, or nothing; what is wrong with it is told.
+    // The texture of a property, or nothing if it is missing or, which is reported, wrong.
     std::optional<Texture> read(JsonObject& parent, const std::string& name) const;
 
 private:
@@ -34,7 +34,7 @@ private:
     JsonList textures_, samplers_, images_;
 };
 
-// <texture type="bitmap"> of a picture in memory; `raw`: numbers, not colours.
+// A <texture type="bitmap"> of a picture in memory; `raw`: its values are numbers, not colours.
 Element make_bitmap(const Texture& texture, const std::string& name, const std::string& filename, bool raw);
 
 }  // namespace neumann::reader::gltf

@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// RFC 4648. Padding may be missing.
+// Decodes base64, RFC 4648. Padding may be missing.
 std::string decode_base64(std::string_view text, const Location& place) {
     constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     constexpr std::uint8_t none = 64;

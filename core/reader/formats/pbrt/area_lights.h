@@ -1,4 +1,4 @@
-// "diffuse" area lights as <emitter type="area">.
+// Reads "diffuse" area lights as <emitter type="area">.
 #pragma once
 
 #include "core/reader/formats/pbrt/importer.h"
@@ -11,12 +11,12 @@ namespace neumann::reader::pbrt {
 
 struct AreaLight {
     TextureValue radiance{Rgb(1.0)};
-    std::optional<double> power = {};  // of each shape, in place of what the scale of `radiance` says
-    double mean = 1.0;                 // luminance of the picture; 1 without one, as in pbrt
+    std::optional<double> power = {};  // power of each shape, which replaces the scale of `radiance`
+    double mean = 1.0;                 // mean luminance of the picture; 1 without one, as in pbrt
     bool two_sided = false;
     Location place = {};
 
-    // What a shape of this area (in its own space, for round ones) gives off.
+    // The emitter of a shape of this area; that of round shapes is in their own space.
     Element emitter(double area, Coordinates coordinates, Importer& importer) const;
 };
 

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::uint32_t cuts = 16;
 
-// The corners in pbrt's order: (u, v) = (0, 0), (1, 0), (0, 1), (1, 1).
+// Interpolates between corners in pbrt's order: (u, v) = (0, 0), (1, 0), (0, 1), (1, 1).
 template <class T>
 T bilinear(const std::array<T, 4>& c, double u, double v) {
     return (1.0 - v) * ((1.0 - u) * c[0] + u * c[1]) + v * ((1.0 - u) * c[2] + u * c[3]);
@@ -24,13 +24,13 @@ std::array<T, 4> corners(const std::vector<T>& values, const std::vector<std::ui
             values[indices[4 * patch + 3]]};
 }
 
-// Whether the two triangles are the patch, and values at the corners are linear on them: a parallelogram.
+// Whether the patch is a parallelogram: its two triangles are the patch, and values at the corners are linear on them.
 bool is_parallelogram(const std::array<Vec3, 4>& c) {
     const double size = std::max({length_of(c[1] - c[0]), length_of(c[2] - c[0]), length_of(c[3] - c[0])});
     return length_of(c[0] + c[3] - c[1] - c[2]) <= 1e-6 * size;
 }
 
-// Whether it is a convex flat quadrangle, in which the two triangles are the same surface.
+// Whether the patch is a convex flat quadrangle, of which the two triangles are the same surface.
 bool is_flat_and_convex(const std::array<Vec3, 4>& c) {
     const std::array<Vec3, 4> around = {c[0], c[1], c[3], c[2]};
     const Vec3 n = glm::cross(c[3] - c[0], c[2] - c[1]);
@@ -64,7 +64,7 @@ MadeMesh make_bilinear_mesh(Parameters& p, Importer& importer) {
         linear = linear && is_parallelogram(c);
         flat = flat && (is_parallelogram(c) || is_flat_and_convex(c));
     }
-    // Whatever varies over a patch is linear in its triangles only where they make a parallelogram.
+    // What varies over a patch is linear in its triangles only if they make a parallelogram.
     const std::uint32_t n = linear ? 1 : cuts;
     if (!flat) importer.warnings.add("bilinearmesh: a patch that is not flat is cut into 16 × 16 pairs of triangles");
     constexpr std::size_t max_triangles = std::size_t(1) << 26;

@@ -1,4 +1,4 @@
-// What all materials have: roughness, normals, two sides.
+// The properties that all materials have: roughness, normals, two sides.
 #include "core/reader/formats/pbrt/bsdf_maker.h"
 
 #include "core/base/did_you_mean.h"
@@ -65,7 +65,7 @@ BsdfMaker::Alphas BsdfMaker::read_alphas(const std::string& prefix) {
     const auto both = textures_.find_number(p_, prefix + "roughness");
     const auto u = textures_.find_number(p_, prefix + "uroughness"), v = textures_.find_number(p_, prefix + "vroughness");
     const bool remap = p_.boolean("remaproughness").value_or(true);
-    // As pbrt-v4's RoughnessToAlpha.
+    // As in pbrt-v4's RoughnessToAlpha, α is the root of the roughness.
     const auto alpha = [&](const TextureValue& roughness) {
         return remap ? apply(
                            roughness, [](const Rgb& r) { return glm::sqrt(r); }, importer_, true)
@@ -82,7 +82,7 @@ BsdfMaker::Alphas BsdfMaker::read_alphas(const std::string& prefix) {
     a.u = alpha(u.value_or(missing));
     a.is_isotropic = !u && !v;
     a.v = a.is_isotropic ? a.u : alpha(v.value_or(missing));
-    constexpr double smooth = 1e-3, least = 1e-4;  // pbrt's
+    constexpr double smooth = 1e-3, least = 1e-4;  // as in pbrt
     const Rgb *cu = a.u.constant(), *cv = a.v.constant();
     a.is_smooth = cu && cv && std::max(cu->r, cv->r) < smooth;
     a.is_isotropic = a.is_isotropic || (cu && cv && cu->r == cv->r);
@@ -97,7 +97,7 @@ void BsdfMaker::add_alphas(Element& e, const Alphas& alphas) {
         add(e, "alpha", alphas.u, true);
     } else {
         needs_coordinates_ = true;
-        // On a disc pbrt's u goes around, where ours goes outwards.
+        // On a disc pbrt's u goes around, and ours goes outwards.
         const bool swapped = coordinates_ == Coordinates::disk;
         add(e, swapped ? "alpha_v" : "alpha_u", alphas.u, true);
         add(e, swapped ? "alpha_u" : "alpha_v", alphas.v, true);
@@ -116,7 +116,8 @@ Element BsdfMaker::two_sided(Element inner) const {
     return e;
 }
 
-// These stand around `twosided`, so that the back is the other side of the same bent surface and not its mirror image.
+// Normal and bump maps stand around `twosided`, so that the back is the other side of the same bent surface and not its
+// mirror image.
 Element BsdfMaker::with_normals(Element inner) {
     const std::optional<std::string> map = p_.text("normalmap");
     const std::optional<TextureValue> displacement = textures_.find_texture(p_, "displacement", true);

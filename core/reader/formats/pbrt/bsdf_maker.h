@@ -15,10 +15,9 @@ public:
     BsdfMaker(MaterialEntity& material, Textures& textures, Importer& importer, Coordinates coordinates)
         : p_(material.parameters), type_(material.type), textures_(textures), importer_(importer), coordinates_(coordinates) {}
 
-    // Throws InputError for a type that is not known, and Told if parameters are wrong. The names of the types are also those that
-    // messages list.
+    // Throws InputError for a type that is not known, and Told if parameters are wrong.
     Element make();
-    // Whether textures or the direction in which the surface is brushed matter.
+    // Whether textures, or the direction in which the surface is brushed, need coordinates.
     bool needs_coordinates() const { return needs_coordinates_; }
 
     static const std::vector<std::string>& types();
@@ -28,7 +27,7 @@ private:
         TextureValue u{Rgb(0.0)}, v{Rgb(0.0)};
         bool is_smooth = true, is_isotropic = true;
     };
-    // By η and k, which may have a name that Mitsuba knows as well, or by a colour that varies.
+    // A metal by η and k, which may have a name that Mitsuba knows as well, or by a colour that varies.
     struct Metal {
         Rgb eta{1.0}, k{0.0};
         std::optional<std::string> name = {};
@@ -53,9 +52,9 @@ private:
     void check_layers();
 
     Element bsdf(const std::string& type) const { return make_object("bsdf", type, p_.place()); }
-    // pbrt's reflection is the same from both sides.
+    // Makes the bsdf reflect the same from both sides, as pbrt's does.
     Element two_sided(Element inner) const;
-    // `normalmap` or `bumpmap` around it, if the material has one.
+    // Puts `normalmap` or `bumpmap` around the bsdf, if the material has one.
     Element with_normals(Element inner);
 
     Parameters& p_;

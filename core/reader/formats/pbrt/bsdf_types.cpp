@@ -1,4 +1,4 @@
-// The types of materials.
+// Makes each type of material.
 #include "core/reader/formats/pbrt/bsdf_maker.h"
 #include "core/reader/formats/pbrt/colours.h"
 #include "core/reader/formats/pbrt/named_spectra.h"
@@ -12,7 +12,7 @@ namespace neumann::reader::pbrt {
 
 namespace {
 
-// The metal's name if both spectra are of one that Mitsuba knows as well.
+// The metal's name if both spectra are those of a metal that Mitsuba knows as well.
 std::optional<std::string> common_metal(Parameters& p, const std::string& prefix) {
     const auto name = [&](const std::string& parameter, const char* missing) {
         const Parameter* given = p.find(prefix + parameter, {"spectrum"});
@@ -24,13 +24,13 @@ std::optional<std::string> common_metal(Parameters& p, const std::string& prefix
     return eta->metal;
 }
 
-// Of the metal of η = 1 that reflects so much at normal incidence, as in pbrt.
+// The k of a metal of η = 1 with this reflectance at normal incidence, as in pbrt.
 Rgb k_of_reflectance(const Rgb& reflectance) {
     const Rgb r = glm::clamp(reflectance, 0.0, 0.9999);
     return 2.0 * glm::sqrt(r / (1.0 - r));
 }
 
-// At normal incidence.
+// The reflectance at normal incidence.
 Rgb reflectance_of(const Rgb& eta, const Rgb& k) {
     return ((eta - 1.0) * (eta - 1.0) + k * k) / ((eta + 1.0) * (eta + 1.0) + k * k);
 }
@@ -98,9 +98,9 @@ Element BsdfMaker::make_thin_dielectric() {
     return e;
 }
 
-// A share 1 − w of a diffuse mirror and a share w of a sheet that only lets through diffusely (`principledthin` with diff_trans 2):
-// r = (1 − w) (r / (1 − w)) and t = w (t / w), which is exact. Both colours are at most max r + max t for w = max t / (max r + max
-// t); pbrt cuts each off at 1, and not their sum.
+// The material is a share 1 − w of a diffuse reflector and a share w of a sheet that only transmits, diffusely
+// (`principledthin` with diff_trans 2): r = (1 − w) (r / (1 − w)) and t = w (t / w), which is exact. With w = max t /
+// (max r + max t) both colours are at most max r + max t; pbrt cuts each off at 1, and not their sum.
 Element BsdfMaker::make_diffuse_transmission() {
     const double scale = p_.number("scale", 1.0);
     if (scale < 0.0) p_.complain("scale", fmt::format("scale of {} is negative: {}", p_.title(), scale));
@@ -133,7 +133,7 @@ Element BsdfMaker::make_diffuse_transmission() {
     return blend;
 }
 
-// Parameters of the layer that pbrt samples by random walks.
+// Reads the parameters of the layer that pbrt samples by random walks.
 void BsdfMaker::check_layers() {
     p_.ignore({"maxdepth", "nsamples", "g", "thickness"});
     const auto albedo = textures_.find_reflectance(p_, "albedo");
@@ -149,7 +149,7 @@ Element BsdfMaker::make_coated_diffuse() {
     add(e, "diffuse_reflectance", reflectance("reflectance", 0.5));
     add_float(e, "int_ior", eta, p_.place("eta"));
     add_float(e, "ext_ior", 1.0, p_.place());
-    add_boolean(e, "nonlinear", true, p_.place());  // what is reflected inwards is coloured again
+    add_boolean(e, "nonlinear", true, p_.place());  // light reflected inwards is coloured again
     if (!alphas.is_isotropic)
         p_.refuse("vroughness", fmt::format("vroughness of {} is not uroughness, which is not supported", p_.title()),
                   ": its coat is alike in all directions");
@@ -158,8 +158,8 @@ Element BsdfMaker::make_coated_diffuse() {
     return two_sided(std::move(e));
 }
 
-// With the reflectance f of the coat and m of the metal in it, both at normal incidence, f + (1 − f)² m / (1 − f m) is reflected:
-// a share f of a perfect mirror, and a share 1 − f of a metal with the reflectance (1 − f) m / (1 − f m).
+// A coat of reflectance f on a metal of reflectance m in it, both at normal incidence, reflects f + (1 − f)² m / (1 − f
+// m): a share f of a perfect mirror, and a share 1 − f of a metal of reflectance (1 − f) m / (1 − f m).
 Element BsdfMaker::make_coated_conductor() {
     check_layers();
     const Alphas coat = read_alphas("interface."), metal = read_alphas("conductor.");

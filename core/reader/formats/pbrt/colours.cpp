@@ -18,7 +18,7 @@ namespace neumann::reader::pbrt {
 
 namespace {
 
-// The Fraunhofer line d, at which indices of glass are stated, nm.
+// The Fraunhofer line d, at which indices of glass are stated, in nm.
 constexpr double line_d = 587.6;
 
 Rgb first_rgb(const Parameter& p) { return {p.numbers[0], p.numbers[1], p.numbers[2]}; }
@@ -100,7 +100,7 @@ SpectrumTable read_table(const Parameter& p, const std::string& title, Importer&
     return table_of(read_numbers(path), title, {path});
 }
 
-// Of luminance 1.
+// The colour of a spectrum at luminance 1.
 Rgb colour_of(const SpectrumTable& table, Parameters& p, const std::string& name, Importer& importer) {
     const Rgb c = spectrum_to_rgb(table, Illuminant::equal_energy);
     const double luminance = (glm::inverse(rgb_from_xyz()) * c).y;
@@ -113,7 +113,7 @@ SpectrumTable blackbody(double temperature) {
     SpectrumTable table;
     for (double w = cie::first_wavelength; w <= cie::last_wavelength; w += 1.0) {
         table.wavelengths.push_back(w);
-        // In proportion, so that no temperature is beyond the range of numbers.
+        // Values are relative to the last one, so that no temperature is beyond the range of numbers.
         table.values.push_back(blackbody_radiance(w, temperature) / blackbody_radiance(cie::last_wavelength, temperature));
     }
     return table;

@@ -1,4 +1,4 @@
-// Files, the stack of states, and what is common to all directives.
+// Reads files, keeps the stack of states, and reads what is common to all directives.
 #include "core/reader/formats/pbrt/directive_reader.h"
 
 #include "core/base/did_you_mean.h"
@@ -24,7 +24,7 @@ constexpr std::size_t max_depth = 32, max_files = 10000;
 
 constexpr const char* upgrade = "this is pbrt-v3, expected pbrt-v4, into which 'pbrt --upgrade' of pbrt-v4 converts it";
 
-// Where a line begins with WorldEnd, as scenes of pbrt-v3 end.
+// The place of a line that begins with WorldEnd, as scenes of pbrt-v3 end.
 std::optional<Location> end_of_v3(const std::string& path, const std::string& text) {
     constexpr std::string_view word = "WorldEnd";
     for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) {
@@ -65,13 +65,13 @@ void DirectiveReader::in_world(const std::string& name, Directive directive) {
 
 void DirectiveReader::read_file(const std::string& path) {
     std::string text = read_unpacked(path);
-    // Told alone: most of what such a file says is wrong in pbrt-v4.
+    // This error is reported alone, because most of such a file is wrong in pbrt-v4.
     if (const std::optional<Location> end = end_of_v3(path, text))
         throw InputError(*end, fmt::format("WorldEnd is no directive; {}", upgrade));
     Tokens tokens(path, std::move(text));
     scene_.files.push_back(path);
     files_.push_back({path, &tokens});
-    // A string without an end leaves nothing that could be understood.
+    // After a string without an end nothing can be understood.
     problems_.attempt({path, 1, 1}, [&] {
         if (const std::optional<Token>& first = tokens.peek(); first && !may_begin(*first))
             throw InputError(tokens.place(*first), fmt::format("expected a directive of pbrt, found {}", first->shown()));
@@ -107,7 +107,7 @@ bool DirectiveReader::may_begin(const Token& first) const {
     return directives_.contains(first.text) || is_of_v3(first.text) || !did_you_mean(first.text, known_directives()).empty();
 }
 
-// Those that are not known are told, too.
+// Skips to the next directive, also one that is not known, so that it is reported, too.
 void DirectiveReader::skip_to_directive() {
     const auto is_directive = [](const Token& t) { return !t.is_string && t.text[0] >= 'A' && t.text[0] <= 'Z'; };
     while (tokens().peek() && !is_directive(*tokens().peek())) tokens().next();
@@ -123,7 +123,7 @@ void DirectiveReader::check_end() {
 
 std::string DirectiveReader::string_argument(const std::string& directive, const Location& place, const char* what) {
     const std::optional<Token>& next = tokens().peek();
-    // Files that programs write sometimes have brackets around it.
+    // Programs sometimes write brackets around the string.
     const bool in_brackets = next && next->is("[");
     if (in_brackets) tokens().next();
     if (!tokens().peek() || !tokens().peek()->is_string)
@@ -178,7 +178,7 @@ void DirectiveReader::pop(char kind, const std::string& directive, const Locatio
     if (top.kind != kind)
         throw InputError(place, fmt::format("{} without {}; the {} at {} has not ended", directive, beginning_of(kind),
                                             beginning_of(top.kind), to_string(top.place)));
-    // TransformBegin saves nothing else.
+    // TransformBegin saves only these.
     if (kind == 't') {
         state_.to_world = top.state.to_world;
         state_.moves_end_only = top.state.moves_end_only;
@@ -204,7 +204,7 @@ void DirectiveReader::include(const std::string& directive, const Location& plac
         read_file(path);
         return;
     }
-    // What an imported file does to the state ends with it.
+    // The state changes that an imported file makes end with it.
     const GraphicsState outer = state_;
     const std::size_t depth = pushed_.size();
     read_file(path);

@@ -19,7 +19,7 @@ public:
 
     // Throws InputError if the file cannot be opened.
     void read_file(const std::string& path);
-    // After the last file.
+    // Reports what is still open after the last file.
     void check_end();
 
 private:
@@ -28,7 +28,7 @@ private:
     void add_options();
     void add_state_directives();
     void add_world_directives();
-    // Directives that stand before WorldBegin, after it, or anywhere.
+    // Add directives that may stand before WorldBegin, after it, or anywhere.
     void before_world(const std::string& name, Directive directive);
     void in_world(const std::string& name, Directive directive);
     void anywhere(const std::string& name, Directive directive) { directives_[name] = std::move(directive); }
@@ -36,7 +36,7 @@ private:
     void execute(const Token& token);
     [[noreturn]] void fail_unknown(const Token& token);
     std::vector<std::string> known_directives() const;
-    // Whether a file may begin with it; otherwise it is none of pbrt.
+    // Whether a file of pbrt may begin with the token.
     bool may_begin(const Token& first) const;
     void skip_to_directive();
 
@@ -82,7 +82,7 @@ private:
     std::map<std::string, Mat4> coordinate_systems_;
     std::set<std::string> media_;
     std::map<std::string, Location> named_materials_;
-    PbrtScene::Object* object_ = nullptr;  // being defined
+    PbrtScene::Object* object_ = nullptr;  // the object being defined
     bool is_in_world_ = false;
 };
 

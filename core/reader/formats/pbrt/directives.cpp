@@ -22,7 +22,7 @@ void DirectiveReader::add_options() {
     set("Integrator", scene_.integrator, "integrator");
     set("PixelFilter", scene_.filter, "pixel filter");
     before_world("Camera", [this](auto&, const Location& place) { camera(place); });
-    // How pbrt finds what rays meet.
+    // An accelerator is how pbrt finds what rays meet.
     before_world("Accelerator", [this](auto& word, const Location& place) { entity(word, place, "accelerator"); });
     before_world("Option", [this](auto&, const Location& place) { option(place); });
     anywhere("ColorSpace", [this](auto& word, const Location& place) {
@@ -60,7 +60,7 @@ void DirectiveReader::add_state_directives() {
                              fmt::format("there is no coordinate system '{}'{}", printable(name), did_you_mean(name, known)));
         if (!state_.moves_end_only) state_.to_world = found->second;
     });
-    // The times matter only where something moves.
+    // The times matter only if something moves.
     anywhere("TransformTimes", [this](auto& word, const Location& place) { number_arguments(word, place, 2); });
     anywhere("ActiveTransform", [this](auto& word, const Location& place) {
         const std::optional<Token> which = tokens().next();
@@ -115,7 +115,7 @@ void DirectiveReader::set_option(std::optional<Entity>& option, const std::strin
 
 void DirectiveReader::option(const Location& place) {
     Parameters p = parameters("Option", place);
-    // How samples are placed and what is reported.
+    // These say how samples are placed and what is reported.
     p.ignore({"disabletexturefiltering", "disablewavelengthjitter", "displacementedgescale", "msereferenceimage", "msereferenceout",
               "pixelstats", "rendercoordsys", "seed", "wavefront"});
     for (const char* name : {"disablepixeljitter", "forcediffuse"})
@@ -216,7 +216,7 @@ void DirectiveReader::object_instance(const Location& place) {
 void DirectiveReader::medium_interface(const Location& place) {
     std::vector<std::string> names = {string_argument("MediumInterface", place, "a name")};
     if (tokens().peek() && tokens().peek()->is_string) names.push_back(tokens().next()->text);
-    // The problem of a medium that is made has been told there.
+    // A medium that the file defines has been reported at its definition.
     for (const std::string& name : names)
         if (!name.empty() && !media_.contains(name))
             problems_.replace(Unknown(place, fmt::format("medium '{}': media are not supported", printable(name)), "", "ignored"),

@@ -26,7 +26,7 @@ struct Crop {
     int x0, x1, y0, y1;
 };
 
-// `cropwindow`, in parts of the film, or `pixelbounds`; pbrt's order is x0 x1 y0 y1.
+// Reads `cropwindow`, in fractions of the film, or `pixelbounds`; pbrt's order is x0 x1 y0 y1.
 std::optional<Crop> read_film_crop(Parameters& p, int width, int height) {
     const std::vector<double> window = p.numbers("cropwindow", 4);
     const std::vector<std::int64_t> bounds = p.integers("pixelbounds");
@@ -47,7 +47,7 @@ std::optional<Crop> read_film_crop(Parameters& p, int width, int height) {
     return std::nullopt;
 }
 
-// What a film does to colours.
+// Reads what a film does to colours.
 void read_pixel_sensor(Parameters& p, Importer& importer) {
     const double iso = p.number("iso", 100.0);
     if (!(iso > 0.0)) p.complain("iso", fmt::format("iso of {} is {}, expected more than 0", p.title(), iso));
@@ -90,7 +90,7 @@ MadeFilm make_film(PbrtScene& from, Element& scene, Importer& importer) {
         film.height = read_resolution(p, "yresolution", film.height);
         const std::optional<Crop> crop = read_film_crop(p, film.width, film.height);
         read_pixel_sensor(p, importer);
-        // Where and how pbrt writes the picture, and the size of the film in a camera of lenses.
+        // These say where and how pbrt writes the picture, and how large the film is in a camera of lenses.
         p.ignore({"filename", "savefp16", "diagonal", "coordinatesystem"});
         p.finish();
         add_film_size(
@@ -150,7 +150,7 @@ Element make_filter(Entity& e, Importer& importer) {
                                   e.place());
     const double radius = read_filter_radius(p, 1.5, importer), sigma = p.number("sigma", 0.5);
     if (!(sigma > 0.0)) p.complain("sigma", fmt::format("sigma of {} is {}, expected more than 0", p.title(), sigma));
-    // What lies beyond 3 σ is a 370th of the filter.
+    // Only a 370th of the filter lies beyond 3 σ.
     if (radius < 3.0 * sigma * (1.0 - 1e-6)) warn_of_radius("gaussian", radius, 4.0 * sigma, importer);
     Element filter = make_object("rfilter", "gaussian", e.place());
     add_float(filter, "stddev", sigma, p.place("sigma"));

@@ -1,4 +1,4 @@
-// The geometry of shapes.
+// Makes the geometry of shapes.
 #include "core/base/did_you_mean.h"
 #include "core/reader/formats/make_elements.h"
 #include "core/reader/formats/pbrt/shapes.h"
@@ -27,7 +27,7 @@ double read_radius_of(Parameters& p) {
 
 constexpr double turn = 2.0 * std::numbers::pi, almost_all = 1.0 - 1e-6;
 
-// In radians.
+// Returns radians.
 double read_phi_max(Parameters& p) {
     const double degrees = p.number("phimax", 360.0);
     if (!(degrees > 0.0)) p.complain("phimax", fmt::format("phimax of {} is {}, expected more than 0", p.title(), degrees));
@@ -67,7 +67,7 @@ Shapes::Form Shapes::make_sphere(ShapeEntity& s) {
         const double from = std::acos(low / radius), to = std::acos(high / radius);  // angles from +z
         const auto profile = [&](double v) {
             const double theta = v == 1.0 ? to : from + v * (to - from);
-            // Exactly on the axis at the poles.
+            // Points and normals at the poles are exactly on the axis.
             const Vec2 n(theta == 0.0 || theta == std::numbers::pi ? 0.0 : std::sin(theta), std::cos(theta));
             return Profile{n * radius, n};
         };

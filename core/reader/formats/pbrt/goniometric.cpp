@@ -15,7 +15,8 @@ namespace neumann::reader::pbrt {
 
 namespace {
 
-// Pixels across a face of the cube: as many as across the picture, so that they are finer, and so many that cos³θ is smooth.
+// Pixels along an edge of the cube's faces: as many as across the picture, which is finer, and enough for a smooth
+// cos³θ.
 constexpr int min_face = 256, max_face = 1024;
 
 // The rotation that takes +z to an axis.
@@ -32,7 +33,7 @@ Mat4 towards(int axis, double sign) {
 
 std::vector<Element> make_projectors(const Picture& square, const Rgb& intensity, const Mat4& to_world, const Location& place,
                                      Importer& importer) {
-    // As in pbrt the channels' mean, of the nearest pixel.
+    // As in pbrt, the intensity is the mean of the channels, at the nearest pixel.
     std::vector<double> from;
     for_each_texel(square, importer, [&](const Rgb& c) { from.push_back((c.r + c.g + c.b) / 3.0); });
     const auto size = static_cast<int>(std::lround(std::sqrt(static_cast<double>(from.size()))));

@@ -1,4 +1,5 @@
-// "goniometric": a point light whose intensity is that of a picture of all directions, as six <emitter type="projector">.
+// Makes a "goniometric" light, a point light whose intensity is given by a picture of all directions, as six <emitter
+// type="projector">.
 #pragma once
 
 #include "core/reader/formats/pbrt/importer.h"
@@ -9,8 +10,8 @@
 
 namespace neumann::reader::pbrt {
 
-// The `intensity` is that of a direction where the picture is 1. `to_world`: rigid, from the space of the picture, in which its
-// middle is +z.
+// `intensity` is that of a direction in which the picture is 1. `to_world` is rigid and maps from the space of the
+// picture, in which its middle is +z.
 std::vector<Element> make_projectors(const Picture& square, const Rgb& intensity, const Mat4& to_world, const Location& place,
                                      Importer& importer);
 

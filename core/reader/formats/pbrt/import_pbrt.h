@@ -1,4 +1,4 @@
-// Scenes of pbrt-v4.
+// Reads scenes of pbrt-v4.
 #pragma once
 
 #include "core/base/warnings.h"
@@ -9,7 +9,7 @@
 
 namespace neumann::reader {
 
-// Adds errors to `problems` and goes on without what is wrong. Throws InputError where the file cannot be opened.
+// Adds errors to `problems` and reads on without what is wrong. Throws InputError if the file cannot be opened.
 RawScene import_pbrt(const std::string& path, const NamedValues& definitions, Warnings& warnings, Problems& problems);
 
 }  // namespace neumann::reader

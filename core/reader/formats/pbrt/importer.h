@@ -1,4 +1,4 @@
-// What the parts of the importer share.
+// State that the parts of the importer share.
 #pragma once
 
 #include "core/base/warnings.h"
@@ -18,13 +18,13 @@ struct Importer {
     const NamedValues& definitions;
     Warnings& warnings;
     Problems& problems;
-    double imaging_ratio = 1.0;  // what the film multiplies radiance by; the lights are as much brighter
-    std::map<std::string, std::shared_ptr<const Texels>> pictures = {};  // that have been read, by path
-    std::size_t baked_values = 0;                                        // floats of the pictures in memory
+    double imaging_ratio = 1.0;  // the film multiplies radiance by this; the lights are made brighter instead
+    std::map<std::string, std::shared_ptr<const Texels>> pictures = {};  // pictures read so far, by path
+    std::size_t baked_values = 0;                                        // number of floats in the pictures in memory
 
     const std::string& main_file() const { return scene.files.front(); }
     std::shared_ptr<const Texels> read_picture(const std::string& path);
-    // "textures/wood-1.exr" for "textures/wood.exr": a name for a picture in memory that no file has.
+    // A name for a picture in memory that no file has, such as "textures/wood-1.exr" for "textures/wood.exr".
     std::string unused_name(const std::string& name) const;
 };
 

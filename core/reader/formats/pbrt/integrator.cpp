@@ -11,7 +11,7 @@ namespace neumann::reader::pbrt {
 
 namespace {
 
-// Those that estimate all light of paths with at most `maxdepth` reflections.
+// The integrators that estimate all light of paths with at most `maxdepth` reflections.
 const std::vector<std::string> integrator_types = {"bdpt",       "lightpath",     "mlt",  "path",   "randomwalk",
                                                    "simplepath", "simplevolpath", "sppm", "volpath"};
 
@@ -29,7 +29,7 @@ Element make_integrator(PbrtScene& from, Importer& importer) {
     if (depth < 0) p.complain("maxdepth", fmt::format("maxdepth of {} is {}, expected at least 0", p.title(), depth));
     if (p.boolean("regularize").value_or(false))
         importer.warnings.add("regularize of the integrator is left out: no material becomes rougher along a path");
-    // How paths are drawn.
+    // These say how paths are drawn.
     p.ignore({"bootstrapsamples", "chains", "largestepprobability", "lightsampler", "mutationsperpixel", "photonsperiteration",
               "radius", "samplebsdf", "samplelights", "seed", "sigma", "visualizestrategies", "visualizeweights"});
     p.finish();

@@ -1,4 +1,4 @@
-// How bright lights are.
+// Reads how bright lights are.
 #pragma once
 
 #include "core/reader/formats/pbrt/importer.h"
@@ -6,9 +6,9 @@
 
 namespace neumann::reader::pbrt {
 
-// The parameter `scale`, at least 0.
+// Reads the parameter `scale`, which must be at least 0.
 double read_scale(Parameters& p);
-// `power` or `illuminance`; 0 if it is not given, or not positive, as in pbrt.
+// Reads `power` or `illuminance`; 0 if it is missing or, as in pbrt, not positive.
 double read_positive(Parameters& p, const std::string& name);
 // The mean luminance of the texels.
 double mean_luminance(const Picture& picture, Importer& importer);

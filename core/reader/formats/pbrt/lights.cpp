@@ -29,7 +29,7 @@ const std::vector<std::string> light_types = {"distant", "goniometric", "infinit
 Vec3 to_world_point(const Entity& e, const Vec3& p) { return Vec3(e.to_world * glm::dvec4(p, 1.0)); }
 Vec3 to_world_vector(const Entity& e, const Vec3& v) { return Vec3(e.to_world * glm::dvec4(v, 0.0)); }
 
-// Of a light that looks somewhere.
+// Throws InputError if the transformation of a light with a direction has no inverse.
 void expect_direction(const Entity& e) {
     if (!is_invertible(e.to_world))
         throw InputError(e.place(), fmt::format("the transformation of {} has no inverse, expected one that scales nothing to 0",
@@ -41,7 +41,7 @@ void finish(Parameters& p) {
     if (p.is_wrong()) throw Told();
 }
 
-// `from` and `to`, which must differ.
+// Reads `from` and `to`, which must differ.
 std::pair<Vec3, Vec3> read_from_to(Parameters& p) {
     const Vec3 from = p.point("from").value_or(Vec3(0.0)), to = p.point("to").value_or(Vec3(0.0, 0.0, 1.0));
     if (from == to) p.complain("to", fmt::format("from and to of {} are the same point", p.title()));
@@ -105,7 +105,7 @@ Element make_spot(Entity& e, Importer& importer) {
     return light;
 }
 
-// Of all directions, in pbrt's octahedral mapping.
+// Reads a picture of all directions in pbrt's octahedral mapping.
 Picture read_square(const Entity& e, const std::string& filename, Importer& importer) {
     const Picture picture = find_picture(filename, e.parameters.place("filename"), importer);
     const std::shared_ptr<const Texels> texels = importer.read_picture(picture.path);
@@ -171,7 +171,7 @@ std::vector<Element> make_goniometric(Entity& e, Importer& importer) {
         intensity *= power / (4.0 * pi * sum / static_cast<double>(count));
     }
     importer.warnings.add("goniometric light: six projectors, to whose pixels its picture is resampled");
-    // The picture's +y is up, as pbrt has it.
+    // In pbrt the picture's +y is up.
     Mat4 swap_y_and_z(1.0);
     std::swap(swap_y_and_z[1], swap_y_and_z[2]);
     return make_projectors(picture, intensity, without_scale(e.to_world * swap_y_and_z).matrix, e.place(), importer);

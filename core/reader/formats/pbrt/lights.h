@@ -1,4 +1,4 @@
-// Lights that are no surfaces, as <emitter> elements.
+// Makes lights that are no surfaces, as <emitter> elements.
 #pragma once
 
 #include "core/reader/formats/pbrt/importer.h"

@@ -16,19 +16,20 @@ namespace {
 
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 
-// The neighbours of each vertex, counter-clockwise; of one on a boundary from one edge of the boundary to the other.
+// The neighbours of each vertex, counter-clockwise; those of a vertex on a boundary go from one edge of the boundary to
+// the other.
 struct Rings {
     std::vector<std::vector<std::uint32_t>> of;
     std::vector<bool> is_boundary;
 };
 
-// At a vertex: its neighbours along the two edges of a face, in the order of the face.
+// The corner of a face at `vertex`, with the neighbours of the vertex along the face's edges, in the order of the face.
 struct Corner {
     std::uint32_t vertex, from, to;
     auto operator<=>(const Corner&) const = default;
 };
 
-// Throws InputError where the faces around a vertex are not one fan.
+// Throws InputError if the faces around a vertex are not one fan.
 Rings rings_of(std::size_t vertex_count, const Triangles& triangles, const Location& place) {
     std::vector<Corner> corners;
     for (const auto& t : triangles)
@@ -73,7 +74,7 @@ Rings rings_of(std::size_t vertex_count, const Triangles& triangles, const Locat
 double beta(std::size_t valence) { return valence == 3 ? 3.0 / 16.0 : 3.0 / (8.0 * static_cast<double>(valence)); }
 double limit_weight(std::size_t valence) { return 1.0 / (static_cast<double>(valence) + 3.0 / (8.0 * beta(valence))); }
 
-// The vertex with its neighbours, each with a weight.
+// The weighted mean of a vertex and its neighbours.
 Vec3 weighed(const std::vector<Vec3>& p, std::size_t v, const Rings& rings, double of_ring, double of_boundary) {
     const auto& ring = rings.of[v];
     if (rings.is_boundary[v]) return (1.0 - 2.0 * of_boundary) * p[v] + of_boundary * (p[ring.front()] + p[ring.back()]);
@@ -87,7 +88,7 @@ void subdivide(std::vector<Vec3>& p, Triangles& triangles, const Location& place
     std::vector<Vec3> moved = p;
     for (std::size_t v = 0; v < p.size(); ++v)
         if (!rings.of[v].empty()) moved[v] = weighed(p, v, rings, beta(rings.of[v].size()), 1.0 / 8.0);
-    // The ends of each edge in order, with the opposite corner of each of its faces.
+    // The ends of each edge in order, with the opposite corner of one of its faces.
     std::vector<Corner> edges;
     for (const auto& t : triangles)
         for (std::size_t i = 0; i < 3; ++i) {
@@ -95,7 +96,7 @@ void subdivide(std::vector<Vec3>& p, Triangles& triangles, const Location& place
             edges.push_back({a, b, t[(i + 2) % 3]});
         }
     std::sort(edges.begin(), edges.end());
-    std::vector<std::array<std::uint32_t, 3>> middles;  // the ends, and the new vertex
+    std::vector<std::array<std::uint32_t, 3>> middles;  // the ends of an edge, and the new vertex on it
     for (std::size_t i = 0; i < edges.size();) {
         const auto& [a, b, opposite] = edges[i];
         const bool is_within = i + 1 < edges.size() && edges[i + 1].vertex == a && edges[i + 1].from == b;
@@ -119,7 +120,7 @@ void subdivide(std::vector<Vec3>& p, Triangles& triangles, const Location& place
     triangles = std::move(finer);
 }
 
-// Tangents of the limit surface, across each other.
+// The cross product of two tangents of the limit surface.
 Vec3 limit_normal(const std::vector<Vec3>& p, std::size_t v, const Rings& rings) {
     const auto& ring = rings.of[v];
     const std::size_t n = ring.size();

@@ -64,7 +64,7 @@ MadeMaterial Materials::make(std::size_t number, Coordinates coordinates) {
     std::optional<Element> e =
         importer_.problems.attempt(m.place(), [&] { return make_element(m, coordinates, result.needs_coordinates); });
     open_.erase(number);
-    if (!e) {  // unknown, or not used because there is a problem
+    if (!e) {  // unknown, or unused because of a problem
         e = make_object("bsdf", "twosided", m.place());
         add(*e, make_object("bsdf", "diffuse", m.place()));
     }

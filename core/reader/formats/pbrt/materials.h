@@ -1,4 +1,4 @@
-// Materials as <bsdf> elements.
+// Makes materials as <bsdf> elements.
 #pragma once
 
 #include "core/reader/formats/pbrt/importer.h"
@@ -13,10 +13,10 @@
 
 namespace neumann::reader::pbrt {
 
-// What a shape has to know of a material.
+// What a shape needs to know of its material.
 struct MadeMaterial {
     std::string id;
-    bool is_interface = false;       // without media on its sides: nothing is there
+    bool is_interface = false;       // without media on its sides there is no surface
     bool needs_coordinates = false;  // for textures or directions on the surface
 };
 
@@ -24,14 +24,14 @@ class Materials {
 public:
     Materials(PbrtScene& scene, Textures& textures, Importer& importer);
 
-    // Makes those that no shape has, so that their errors are told.
+    // Makes also the materials that no shape has, so that their errors are reported.
     void make_all();
-    // The same material is made again where the coordinates differ and matter. Throws InputError if there is none of this name.
+    // Makes a material again where the coordinates differ and matter. Throws InputError if there is none of this name.
     MadeMaterial use(const MaterialUse& use, Coordinates coordinates);
-    // Another one, of which only a share is there.
+    // Makes a material of which only the share `opacity` is there.
     MadeMaterial masked(const MadeMaterial& inner, const TextureValue& opacity, Coordinates coordinates, const Location& place);
 
-    // All that have been made.
+    // Returns all materials that have been made.
     std::vector<Element> take() { return std::move(elements_); }
 
 private:
@@ -46,7 +46,7 @@ private:
     Importer& importer_;
     std::map<std::string, std::size_t> by_name_;
     std::map<std::pair<std::size_t, Coordinates>, MadeMaterial> made_;
-    std::set<std::size_t> open_;  // being made, to detect mixtures of themselves
+    std::set<std::size_t> open_;  // materials being made, to detect mixtures of themselves
     std::set<std::string> ids_;
     std::vector<Element> elements_;
 };

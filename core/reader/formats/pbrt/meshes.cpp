@@ -28,7 +28,7 @@ std::vector<std::uint32_t> read_indices(Parameters& p, std::size_t vertex_count,
 
 namespace {
 
-// P, N and uv.
+// Reads P, N and uv.
 MeshFile read_vertices(Parameters& p) {
     MeshFile file;
     file.mesh.vertices = p.triples("P", {"point3"});
@@ -56,7 +56,7 @@ std::uint64_t face_count(const std::string& path, const std::string& bytes) {
 
 MadeMesh make_triangle_mesh(Parameters& p) {
     MeshFile file = read_vertices(p);
-    p.ignore({"S", "faceIndices"});  // tangents, and numbers for ptex
+    p.ignore({"S", "faceIndices"});  // tangents, and face numbers for ptex
     const std::vector<std::uint32_t> indices = read_indices(p, file.mesh.vertices.size(), 3);
     for (std::size_t i = 0; i < indices.size(); i += 3) file.mesh.triangles.push_back({indices[i], indices[i + 1], indices[i + 2]});
     return {std::move(file)};
@@ -67,7 +67,7 @@ MadeMesh read_ply_mesh(Parameters& p, Importer& importer) {
     if (!name) p.complain("filename", fmt::format("{} has no \"string filename\"", p.title()));
     if (p.find("displacement", {"texture"}))
         p.refuse("displacement", fmt::format("displacement of {} is not supported", p.title()), "; that of materials is");
-    p.ignore({"edgelength"});  // of the displacement
+    p.ignore({"edgelength"});  // for displacement
     if (!name || p.is_wrong()) throw Told();
     const std::string path = find_file(*name, importer.main_file(), p.place("filename"));
     const std::string bytes = read_unpacked(path);

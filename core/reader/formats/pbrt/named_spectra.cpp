@@ -26,7 +26,7 @@ constexpr std::array chromaticities = {
     Chromaticity{"stdillum-F7", 0.31292, 0.32933},   Chromaticity{"stdillum-F8", 0.34588, 0.35875},
     Chromaticity{"stdillum-F9", 0.37417, 0.37281}};
 
-// Schott's nd, at 587.6 nm. What pbrt calls F5, F10 and F11 is SF5, SF10 and SF11.
+// Schott's nd, the index at 587.6 nm. What pbrt calls F5, F10 and F11 is SF5, SF10 and SF11.
 struct Glass {
     std::string_view name;
     double index;
@@ -37,7 +37,7 @@ constexpr std::array glasses = {Glass{"glass-BAF10", 1.67003}, Glass{"glass-BK7"
 
 constexpr std::array<std::string_view, 4> metals_of_mitsuba = {"Ag", "Al", "Au", "Cu"};
 
-// Brass, of the spectra in pbrt's util/spectrum.cpp, as core/image/colour/metals.h has the others.
+// Brass by the spectra in pbrt's util/spectrum.cpp; core/image/colour/metals.h has the other metals.
 constexpr std::string_view brass = "CuZn";
 const Rgb brass_eta(0.519745, 0.488637, 1.04196), brass_k(4.33054, 2.54807, 1.59223);
 

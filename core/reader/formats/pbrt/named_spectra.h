@@ -9,13 +9,15 @@
 
 namespace neumann::reader::pbrt {
 
-// Linear sRGB of luminance 1 of a standard illuminant, "stdillum-A" and the like. Colours outside sRGB have negative components.
+// The linear sRGB colour, at luminance 1, of a standard illuminant such as "stdillum-A". Colours outside sRGB have
+// negative components.
 std::optional<Rgb> illuminant(const std::string& name);
 
-// The index of refraction at the sodium D line, 589.3 nm, of "glass-BK7" and the like.
+// The index of refraction at 587.6 nm of a glass such as "glass-BK7".
 std::optional<double> glass(const std::string& name);
 
-// Of "metal-Cu-eta" and "metal-Cu-k" η and k of copper; the metal's name is that of core/image/colour/metals.h, if it is there.
+// The η or k of a metal: "metal-Cu-eta" and "metal-Cu-k" are those of copper. The metal's name is that of
+// core/image/colour/metals.h, if it is there.
 struct MetalSpectrum {
     std::string metal;
     bool is_k;

@@ -10,8 +10,8 @@ namespace neumann::reader::pbrt {
 
 using std::numbers::pi;
 
-// In the octant of positive numbers r = √(1 − z) is the distance from the middle along both axes together, of which the angle
-// around z, as a part of 90°, is that along y.
+// In the octant of positive numbers r = √(1 − z) is the distance from the middle, added up over both axes. Its part
+// along y is the angle around z as a fraction of 90°.
 Vec2 square_of_direction(const Vec3& w) {
     const Vec3 a = glm::abs(w);
     const double r = std::sqrt(std::max(1.0 - a.z, 0.0)), turn = std::atan2(a.y, a.x) * (2.0 / pi);
@@ -52,7 +52,7 @@ std::shared_ptr<const Texels> to_latitude_longitude(const Picture& square, Impor
                    y = static_cast<std::size_t>(std::clamp(static_cast<int>(p.y), 0, size - 1));
         return from[y * static_cast<std::size_t>(size) + x];
     };
-    // The mean over the place of each pixel.
+    // A pixel is the mean over its place.
     constexpr int parts = 4;
     for (int row = 0; row < result->height; ++row)
         for (int column = 0; column < result->width; ++column) {

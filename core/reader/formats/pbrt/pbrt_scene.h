@@ -1,4 +1,4 @@
-// What a pbrt file says, before anything is made of it: its directives with the state of the file where they stand.
+// What a pbrt file says, before anything is made of it: its directives, with the state of the file where they stand.
 #pragma once
 
 #include "core/base/vec.h"
@@ -11,25 +11,25 @@
 
 namespace neumann::reader::pbrt {
 
-// Something of a type, with parameters.
+// An object of a type, with parameters.
 struct Entity {
     std::string type;
     Parameters parameters;
-    Mat4 to_world{1.0};  // the current transformation matrix
+    Mat4 to_world{1.0};  // the transformation matrix where it stands
 
     const Location& place() const { return parameters.place(); }
 };
 
 struct TextureEntity : Entity {
     std::string name;
-    bool is_float;  // otherwise of colours
+    bool is_float;  // numbers, otherwise colours
 };
 
 struct MaterialEntity : Entity {
-    std::string name;  // empty where a directive Material makes it
+    std::string name;  // empty if a directive Material makes it
 };
 
-// The material of a shape: the one of this name or, if that is empty, the one of this number.
+// The material of a shape: the one of this name or, if the name is empty, the one of this number.
 struct MaterialUse {
     std::string name = {};
     std::size_t number = 0;
@@ -39,7 +39,7 @@ struct MaterialUse {
 struct ShapeEntity : Entity {
     bool reversed = false;  // by ReverseOrientation
     MaterialUse material;
-    std::optional<std::size_t> light = {};  // an area light
+    std::optional<std::size_t> light = {};  // number of its area light
 };
 
 struct Instance {
@@ -51,11 +51,11 @@ struct Instance {
 struct PbrtScene {
     explicit PbrtScene(const Location& start) : start(start) {}
 
-    Location start;                       // of the main file, where what is missing belongs
+    Location start;                       // the start of the main file, where what is missing is reported
     std::vector<std::string> files = {};  // in the order in which they were opened
     std::optional<Entity> camera = {}, film = {}, sampler = {}, integrator = {}, filter = {};
     std::vector<TextureEntity> textures = {};
-    std::vector<MaterialEntity> materials = {};  // the first is the one that shapes have without any
+    std::vector<MaterialEntity> materials = {};  // the first one is for shapes without a directive Material
     std::vector<Entity> lights = {}, area_lights = {};
     std::vector<ShapeEntity> shapes = {};
     struct Object {

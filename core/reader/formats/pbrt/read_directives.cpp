@@ -6,7 +6,7 @@ namespace neumann::reader::pbrt {
 
 PbrtScene read_directives(const std::string& path, Warnings& warnings, Problems& problems) {
     PbrtScene scene({path, 1, 1});
-    // What shapes have without a directive Material.
+    // Shapes without a directive Material have this material.
     scene.materials.push_back({{"diffuse", Parameters("material 'diffuse'", scene.start, problems)}, ""});
     DirectiveReader reader(scene, warnings, problems);
     reader.read_file(path);

@@ -1,4 +1,4 @@
-// The language of pbrt files (pbrt-v4; pbrt.org/fileformat-v4).
+// Reads the language of pbrt files (pbrt-v4; pbrt.org/fileformat-v4).
 #pragma once
 
 #include "core/base/warnings.h"
@@ -7,7 +7,7 @@
 
 namespace neumann::reader::pbrt {
 
-// Reads a file and what it includes. Adds errors to `problems`, and goes on at the next directive.
+// Reads a file and those that it includes. Adds errors to `problems`, and goes on at the next directive.
 PbrtScene read_directives(const std::string& path, Warnings& warnings, Problems& problems);
 
 }  // namespace neumann::reader::pbrt

@@ -1,4 +1,4 @@
-// The syntax of parameters: "type name" value, or "type name" [ value value … ].
+// Reads the syntax of parameters: "type name" value, or "type name" [ value value … ].
 #include "core/base/did_you_mean.h"
 #include "core/reader/formats/pbrt/parameters.h"
 #include "core/reader/meshes/mesh_text.h"
@@ -15,7 +15,7 @@ namespace neumann::reader {
 
 namespace {
 
-// How many numbers make a value; 0: the values are texts.
+// How many numbers make a value; 0 if the values are texts.
 const std::map<std::string, std::size_t>& sizes_of_types() {
     static const std::map<std::string, std::size_t> sizes = {
         {"blackbody", 1}, {"bool", 1},   {"float", 1},   {"integer", 1}, {"normal", 3},  {"point2", 2},  {"point3", 3},
@@ -23,7 +23,7 @@ const std::map<std::string, std::size_t>& sizes_of_types() {
     return sizes;
 }
 
-// Other names of types.
+// The usual name of a type that has several.
 std::string usual_type(const std::string& type) {
     if (type == "point") return "point3";
     if (type == "vector") return "vector3";
@@ -44,7 +44,7 @@ std::vector<std::string> words_of(const std::string& text) {
     return words;
 }
 
-// Integers are those of 32 bits, as in pbrt; larger ones would not be whole doubles, either.
+// Integers have 32 bits, as in pbrt; larger ones would not be exact doubles, either.
 double parse_value(const Token& token, const std::string& type, const Location& place) {
     if (type == "bool") {
         if (token.text == "true") return 1.0;
@@ -52,7 +52,7 @@ double parse_value(const Token& token, const std::string& type, const Location& 
         throw InputError(place, fmt::format("expected true or false, found {}", token.shown()));
     }
     const char *begin = token.text.data(), *end = begin + token.text.size();
-    if (token.text.size() > 1 && *begin == '+' && begin[1] != '-') ++begin;  // from_chars takes none
+    if (token.text.size() > 1 && *begin == '+' && begin[1] != '-') ++begin;  // from_chars takes no plus sign
     if (type == "integer") {
         std::int32_t value = 0;
         const auto [at, error] = std::from_chars(begin, end, value);
@@ -69,7 +69,7 @@ double parse_value(const Token& token, const std::string& type, const Location& 
     return value;
 }
 
-// What begins with a capital letter outside of quotes.
+// A directive begins with a capital letter outside of quotes.
 bool is_directive(const Token& token) { return !token.is_string && token.text[0] >= 'A' && token.text[0] <= 'Z'; }
 
 }  // namespace
@@ -79,7 +79,7 @@ void Parameters::read(Tokens& tokens) {
         const Token declaration = *tokens.next();
         problems_->attempt(place_, [&] { read_one(tokens, declaration); });
     }
-    // What is left of a parameter that could not be read.
+    // These brackets remain of a parameter that could not be read.
     while (tokens.peek() && (tokens.peek()->is("[") || tokens.peek()->is("]"))) {
         problems_->add(
             InputError(tokens.place(), fmt::format("unexpected {} after the parameters of {}", tokens.peek()->shown(), title_)),
@@ -110,7 +110,7 @@ void Parameters::read_one(Tokens& tokens, const Token& declaration) {
     all_.push_back(std::move(parameter));
 }
 
-// Reads all values, also of a parameter that has a problem, so that what follows it is understood.
+// Reads all values, also those of a parameter with a problem, so that what follows can be understood.
 void Parameters::read_values(Tokens& tokens, Parameter& parameter) {
     const auto size = sizes_of_types().find(parameter.type);
     std::optional<InputError> problem;
@@ -141,7 +141,7 @@ void Parameters::read_values(Tokens& tokens, Parameter& parameter) {
         if (!tokens.next()) throw InputError(tokens.place(bracket), "[ without ]");
     } else if (tokens.peek() && !is_directive(*tokens.peek())) {
         take(*tokens.next());
-    }  // otherwise check_count() tells that there is no value
+    }  // otherwise check_count() reports that there is no value
     if (size == sizes_of_types().end()) {
         std::vector<std::string> types;
         for (const auto& [type, count] : sizes_of_types()) types.push_back(type);

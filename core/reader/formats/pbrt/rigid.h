@@ -1,4 +1,4 @@
-// Transformations without their scale.
+// Separates transformations from their scale.
 #pragma once
 
 #include "core/base/vec.h"
@@ -10,7 +10,8 @@ struct Rigid {
     double scale;
 };
 
-// A matrix whose linear part is divided by the length of its first column; a rotation or reflection if it scales all alike.
+// A matrix whose linear part is divided by the length of its first column: a rotation or a reflection, if the matrix
+// scales all directions alike.
 inline Rigid without_scale(const Mat4& m) {
     Rigid r{m, length_of(Vec3(m[0]))};
     for (int i = 0; i < 3; ++i) r.matrix[i] /= r.scale;

@@ -15,7 +15,7 @@ namespace neumann::reader::pbrt {
 
 namespace {
 
-// pbrt cuts off nothing; these are far enough, and near enough to keep numbers exact.
+// pbrt clips nothing. These depths are far enough, and near enough to keep numbers exact.
 constexpr double nearest_depth = 1e-4, farthest_depth = 1e7;
 
 struct Screen {
@@ -23,8 +23,8 @@ struct Screen {
     bool is_given;
 };
 
-// What the film sees, in units of the half angle of view (or of the scene, of an orthographic camera): −1 … 1 along the shorter
-// side.
+// What the film sees, −1 … 1 along the shorter side. The unit is the half angle of view, or that of the scene for an
+// orthographic camera.
 Screen read_screen(Parameters& p, int width, int height) {
     const double pixels = static_cast<double>(width) / height, aspect = p.number("frameaspectratio", pixels);
     if (!(aspect > 0.0))
@@ -43,7 +43,7 @@ Screen read_screen(Parameters& p, int width, int height) {
     return s;
 }
 
-// From a camera with +x to the left, as Mitsuba has it, to the world.
+// The map to the world from a camera with +x to the left, as Mitsuba has it.
 Rigid to_world_of(const Entity& e) {
     const Mat4 mirror = glm::scale(Mat4(1.0), Vec3(-1.0, 1.0, 1.0));
     return without_scale(glm::inverse(e.to_world) * mirror);
@@ -106,7 +106,7 @@ Element make_orthographic(Entity& e, const Screen& screen, Importer&) {
     return sensor;
 }
 
-// How long the shutter is open is a part of the imaging ratio.
+// The time for which the shutter is open is a factor of the imaging ratio.
 void read_shutter(Parameters& p, Importer& importer) {
     const double open = p.number("shutteropen", 0.0), close = p.number("shutterclose", 1.0);
     if (close > open)
@@ -170,7 +170,7 @@ Element make_sensor(PbrtScene& from, Element& scene, Importer& importer) {
         if (p.is_wrong()) throw Told();
         return made;
     });
-    if (!sensor) sensor = make_object("sensor", "perspective", e.place());  // not used: there is a problem
+    if (!sensor) sensor = make_object("sensor", "perspective", e.place());  // unused, because there is a problem
     add(*sensor, std::move(film.element));
     const auto sampler = importer.problems.attempt(from.start, [&] { return make_sampler(from, scene, importer); });
     if (sampler) add(*sensor, *sampler);

@@ -1,4 +1,4 @@
-// Camera, film, pixel filter and sampler as a <sensor>, and the <integrator>.
+// Makes the <sensor> from camera, film, pixel filter and sampler, and the <integrator>.
 #pragma once
 
 #include "core/reader/formats/pbrt/importer.h"
@@ -6,13 +6,13 @@
 
 namespace neumann::reader::pbrt {
 
-// What pbrt has where a file has none. Sets the importer's imaging ratio. `scene` gets <default>s for what -D sets: width, height
-// and spp.
+// Takes pbrt's defaults for what the file does not have. Sets the importer's imaging ratio. `scene` gets <default>s for
+// what -D sets: width, height and spp.
 Element make_sensor(PbrtScene& from, Element& scene, Importer& importer);
 
 Element make_integrator(PbrtScene& from, Importer& importer);
 
-// The film with its filter; adds the film's part of the imaging ratio.
+// The film with its filter. Making it multiplies the imaging ratio by the film's part.
 struct MadeFilm {
     Element element;
     int width, height;
@@ -20,7 +20,7 @@ struct MadeFilm {
 MadeFilm make_film(PbrtScene& from, Element& scene, Importer& importer);
 Element make_filter(Entity& e, Importer& importer);
 
-// What pbrt has without a directive.
+// The object that pbrt takes without a directive.
 Entity missing_entity(const std::string& noun, const std::string& type, const PbrtScene& from, Importer& importer);
 
 }  // namespace neumann::reader::pbrt

@@ -16,7 +16,7 @@ namespace neumann::reader::pbrt {
 
 namespace {
 
-// The back of a light that shines to both sides is so far behind its front, in parts of its size.
+// The distance at which the back of a two-sided light is behind its front, relative to its size.
 constexpr double thickness = 1e-4;
 
 bool swaps_handedness(const Mat4& m) { return glm::determinant(glm::dmat3(m)) < 0.0; }
@@ -70,9 +70,9 @@ void Shapes::add(ShapeEntity& s, std::vector<Element>& to) {
     auto form = importer_.problems.attempt(s.place(), [&] { return make_form(s); });
     const auto alpha = textures_.find_number(p, "alpha");
     if (form) p.finish();
-    // The material is looked for before, so that its problems are told even if the shape has some.
+    // The material is made first, so that its problems are reported even if the shape has some.
     MadeMaterial material = materials_.use(s.material, form ? form->coordinates : Coordinates::same);
-    if (!form && importer_.problems.lenient()) return;  // of a type that is not known
+    if (!form && importer_.problems.lenient()) return;  // its type is not known
     if (!form || p.is_wrong()) throw Told();
     if (!lay_flat(s, *form)) return;
     if (material.is_interface) {
@@ -80,7 +80,7 @@ void Shapes::add(ShapeEntity& s, std::vector<Element>& to) {
         return;
     }
     if (alpha && alpha->constant() && alpha->constant()->r >= 1.0) {
-        // All of it is there.
+        // Everything is opaque.
     } else if (alpha && s.light) {
         throw InputError(p.place("alpha"), fmt::format("alpha of {}, which has an area light: expected one of them", p.title()));
     } else if (alpha) {
@@ -125,7 +125,7 @@ void Shapes::add_lights(const ShapeEntity& s, const Form& form, const MadeMateri
     if (!form.mesh->triangles_of_light)
         throw InputError(light->place,
                          "the power of an area light is on a plymesh with faces of four corners, expected triangles only");
-    // Each of pbrt's shapes has the whole power. Where they are of one size, their radiance is the same.
+    // Each of pbrt's shapes emits the whole power. Shapes of one size have the same radiance.
     const TriangleMesh& mesh = form.mesh->file.mesh;
     const std::size_t count = *form.mesh->triangles_of_light, parts = mesh.triangles.size() / count;
     std::vector<double> areas;
@@ -152,7 +152,7 @@ Shapes::Form Shapes::behind(const ShapeEntity& s, const Form& form) {
     importer_.warnings.add("light that shines from both sides: two lights, a ten-thousandth of their size apart");
     Form back = form;
     const std::string& type = form.element.attribute("type").value;
-    // Round shapes turn with the handedness of the transformation, too.
+    // The handedness of the transformation turns round shapes as well.
     const double front = s.reversed != swaps_handedness(s.to_world) ? -1.0 : 1.0;
     const auto replace = [&](const std::string& name, auto&& add_new) {
         std::erase_if(back.element.children, [&](const Element& e) { return e.attribute("name").value == name; });

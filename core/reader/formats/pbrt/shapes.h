@@ -1,4 +1,4 @@
-// Shapes, objects and instances as <shape> elements.
+// Makes shapes, objects and instances as <shape> elements.
 #pragma once
 
 #include "core/reader/formats/pbrt/area_lights.h"
@@ -17,7 +17,7 @@ class Shapes {
 public:
     Shapes(PbrtScene& scene, Materials& materials, Textures& textures, Importer& importer);
 
-    // All of them.
+    // Makes all of them.
     std::vector<Element> make();
 
 private:
@@ -25,7 +25,7 @@ private:
     struct Form {
         Element element;
         Coordinates coordinates = Coordinates::same;
-        std::optional<MadeMesh> mesh = {};              // of those that are meshes; the element has no file name then
+        std::optional<MadeMesh> mesh = {};              // the mesh, if the shape is one; the element has no file name yet
         double area = 0.0, radius = 0.0, height = 0.0;  // of round shapes, in their own space
         bool is_round() const { return area > 0.0; }
     };
@@ -37,12 +37,12 @@ private:
     Form make_disk(ShapeEntity& s);
     Form make_cylinder(ShapeEntity& s);
     Form make_mesh(ShapeEntity& s);
-    // Of a round shape, of this area in its own space.
+    // The mesh of a round shape, whose area in its own space is given.
     Form make_part(ShapeEntity& s, MadeMesh mesh, double area);
-    // Under a map that has no inverse: meshes where it puts them. False for what pbrt does not show then.
+    // Puts a mesh where a map without inverse places it. Returns false for what pbrt does not show then.
     bool lay_flat(ShapeEntity& s, Form& form);
     void add_lights(const ShapeEntity& s, const Form& form, const MadeMaterial& material, std::vector<Element>& to);
-    // The form behind another one that shines to the other side.
+    // A form behind the given one, which shines to the other side.
     Form behind(const ShapeEntity& s, const Form& form);
     // The element with its mesh, its side, its material and its light.
     Element finished(const ShapeEntity& s, const Form& form, const MadeMaterial& material, std::optional<Element> emitter,
@@ -55,7 +55,7 @@ private:
     Textures& textures_;
     Importer& importer_;
     std::vector<std::optional<AreaLight>> lights_;
-    std::map<std::string, int> names_;  // of meshes, with how many have them
+    std::map<std::string, int> names_;  // how many meshes have each name
 };
 
 }  // namespace neumann::reader::pbrt

@@ -60,7 +60,7 @@ Rgb linear_texel(const Texels& t, bool raw, std::size_t pixel) {
 
 std::size_t pixel_count(const Texels& t) { return static_cast<std::size_t>(t.width) * static_cast<std::size_t>(t.height); }
 
-// The picture with f of each pixel's number.
+// The picture with f(number of the pixel) in each pixel.
 Picture baked(const Picture& from, const Texels& size, const std::function<Rgb(std::size_t)>& f, bool is_grey, Importer& importer) {
     importer.baked_values += pixel_count(size) * (is_grey ? 1 : 3);
     if (importer.baked_values > max_baked_values)
@@ -111,7 +111,7 @@ Mat4 turned_over() {
     return m;
 }
 
-// A square of a checkerboard here is half as wide.
+// A square of a checkerboard is half as wide here.
 Mat4 halved() {
     Mat4 m(1.0);
     m[0][0] = m[1][1] = 0.5;
@@ -181,7 +181,7 @@ TextureValue as_number(const TextureValue& t, Importer& importer) {
 
 TextureValue at_most_one(const TextureValue& t, Importer& importer) {
     if (const auto* picture = std::get_if<Picture>(&t.value); picture && !picture->texels) {
-        // Whole numbers are at most 1; files of floats are worth reading.
+        // Values of whole-number formats are at most 1; only files of floats are worth reading.
         std::string ending = std::filesystem::path(picture->path).extension().string();
         std::transform(ending.begin(), ending.end(), ending.begin(),
                        [](unsigned char c) { return static_cast<char>(std::tolower(c)); });

@@ -21,7 +21,7 @@ struct UvMapping {
 };
 
 struct Picture {
-    std::string filename, path;              // as elements name it; empty path: in memory
+    std::string filename, path;              // `filename` as elements name it; an empty `path`: in memory
     std::shared_ptr<const Texels> texels{};  // null: not read yet
     bool raw = false, nearest = false;
     std::string wrap = "repeat";
@@ -33,11 +33,11 @@ Picture find_picture(const std::string& name, const Location& place, Importer& i
 
 struct TextureValue;
 
-// Where ⌊s⌋ + ⌊t⌋ is even the first, elsewhere the second.
+// A checkerboard: the first square where ⌊s⌋ + ⌊t⌋ is even, and the second elsewhere.
 struct Checks {
     std::array<std::shared_ptr<const TextureValue>, 2> squares;
     UvMapping mapping;
-    int depth = 1;  // of checkerboards within each other
+    int depth = 1;  // nesting depth of checkerboards
 };
 
 struct TextureValue {
@@ -46,18 +46,18 @@ struct TextureValue {
     const Rgb* constant() const { return std::get_if<Rgb>(&value); }
 };
 
-// f of each texel, in memory where that is a picture; f gets linear values. The result is a picture of one channel if `is_grey`.
-// Throws InputError if a picture cannot be read.
+// Applies f to each texel; the result of a picture is in memory. f gets linear values. A picture has one channel in the
+// result if `is_grey`. Throws InputError if a picture cannot be read.
 TextureValue apply(const TextureValue& t, const std::function<Rgb(const Rgb&)>& f, Importer& importer, bool is_grey = false);
-// f of the texels of both. Throws InputError at `place` if that is no texture of the same kind: for checkerboards of other squares
-// and pictures of different size or mapping.
+// Applies f to the texels of both. Throws InputError at `place` if they differ in kind, or in the squares of
+// checkerboards or the size or mapping of pictures.
 TextureValue combine(const TextureValue& a, const TextureValue& b, const std::function<Rgb(const Rgb&, const Rgb&)>& f,
                      Importer& importer, const Location& place);
-// The mean of the channels, as pbrt makes numbers of colours; the same texture where it is grey.
+// The mean of the channels, which pbrt takes as the number of a colour; the same texture if it is grey.
 TextureValue as_number(const TextureValue& t, Importer& importer);
-// With no value above 1, as pbrt cuts off reflectances.
+// The texture with values cut off at 1, as pbrt does for reflectances.
 TextureValue at_most_one(const TextureValue& t, Importer& importer);
-// A number with no value below `least`; the same texture where there is none.
+// A number cut off at `least` from below; the same texture if no value is smaller.
 TextureValue at_least(const TextureValue& t, double least, Importer& importer);
 // The largest value of each channel.
 Rgb largest(const TextureValue& t, Importer& importer);
@@ -65,11 +65,12 @@ Rgb largest(const TextureValue& t, Importer& importer);
 // Calls f with each texel, linear, and returns their number.
 std::size_t for_each_texel(const Picture& picture, Importer& importer, const std::function<void(const Rgb&)>& f);
 
-// How the texture coordinates of shapes here give those of pbrt: on spheres v is turned over; on discs pbrt's u is our v, and its v
-// is 1 − u.
+// How the texture coordinates of shapes here give those of pbrt: on spheres v is turned over; on discs pbrt's u is our
+// v, and its v is 1 − u.
 enum class Coordinates { same, sphere, disk };
 
-// Adds the parameter that says so. Numbers where a number is expected: <float>, and checkerboards that are evaluated as such.
+// Adds the parameter that holds the value. With `is_number` constants become a <float>, and checkerboards are made for
+// evaluation as numbers.
 void add_texture(Element& parent, const std::string& name, const TextureValue& t, Coordinates coordinates, bool is_number,
                  const Location& place);
 

@@ -15,7 +15,7 @@ namespace neumann::reader::pbrt {
 
 namespace {
 
-// "gamma 2.2".
+// Reads a gamma such as "gamma 2.2".
 double read_gamma(Parameters& p, const std::string& encoding) {
     double gamma = 0.0;
     const std::string digits = encoding.starts_with("gamma ") ? encoding.substr(6) : "";
@@ -62,7 +62,7 @@ TextureValue Textures::make_picture(TextureEntity& e) {
     if (!name) p.complain("filename", fmt::format("{} has no \"string filename\"", p.title()));
     picture.nearest = p.choice("filter", {"bilinear", "ewa", "point", "trilinear"}, "bilinear") == "point";
     picture.wrap = p.choice("wrap", {"clamp", "repeat"}, "repeat");
-    p.ignore({"maxanisotropy"});  // of the filter ewa
+    p.ignore({"maxanisotropy"});  // for the filter ewa
     const double scale = p.number("scale", 1.0);
     if (scale < 0.0) p.complain("scale", fmt::format("scale of {} is negative: {}", p.title(), scale));
     const bool invert = p.boolean("invert").value_or(false);
@@ -90,7 +90,7 @@ TextureValue Textures::operand(TextureEntity& e, const std::string& name, double
     Parameters& p = e.parameters;
     if (e.is_float) return find_number(p, name).value_or(TextureValue{Rgb(missing)});
     if (const auto texture = find_texture(p, name, false)) return *texture;
-    // Whether it may be above 1 is seen where it is used.
+    // Whether the value may be above 1 is checked where it is used.
     if (const Parameter* rgb = p.find(name, {"rgb"}); rgb && rgb->numbers.size() == 3) {
         const Rgb c(rgb->numbers[0], rgb->numbers[1], rgb->numbers[2]);
         if (std::min({c.r, c.g, c.b}) < 0.0) p.complain(name, fmt::format("{} of {} is negative", name, p.title()));

@@ -15,11 +15,12 @@ class Textures {
 public:
     Textures(PbrtScene& scene, Importer& importer);
 
-    // A reflectance, transmittance or the like, from 0 to 1: an rgb, a spectrum or a texture. Nothing if it is not given.
+    // Reads a reflectance, transmittance or the like, from 0 to 1: an rgb, a spectrum or a texture. Nothing if it is
+    // not given.
     std::optional<TextureValue> find_reflectance(Parameters& p, const std::string& name);
-    // A number: a float or a texture.
+    // Reads a number: a float or a texture.
     std::optional<TextureValue> find_number(Parameters& p, const std::string& name);
-    // A texture that is named.
+    // Reads a texture that is given by its name.
     std::optional<TextureValue> find_texture(Parameters& p, const std::string& name, bool is_float);
 
 private:
@@ -30,7 +31,7 @@ private:
     UvMapping read_mapping(Parameters& p);
 
     Importer& importer_;
-    // Of colours, and of numbers. Those that could not be made are in both a neutral grey.
+    // Textures of colours, and of numbers. One that could not be made is in both, as a neutral grey.
     std::map<std::string, TextureValue> textures_[2];
 };
 

@@ -89,8 +89,8 @@ void Tokens::take_plain_numbers(bool whole, std::vector<double>& values) {
     }
 }
 
-// A backslash stands before a quote or a backslash that is meant as such. Before anything else it is a backslash, as in the names
-// of files on Windows; pbrt has \n and the like, which no scene needs.
+// A backslash escapes a quote or a backslash. Before anything else it is itself, as in file names on Windows; pbrt has
+// \n and the like, which no scene needs.
 void Tokens::read_string(Token& token) {
     token.is_string = true;
     for (; at_ < text_.size() && text_[at_] != '\n'; ++at_) {

@@ -10,30 +10,30 @@
 namespace neumann::reader {
 
 struct Token {
-    std::string text;  // of a string: what it says, without quotes
+    std::string text;  // of a string without its quotes
     bool is_string = false;
     int line = 0, column = 0;
 
     bool is(const char* word) const { return !is_string && text == word; }
-    std::string shown() const;  // for messages: as it stands in the file, a few characters
+    std::string shown() const;  // as in the file, for messages; a few characters
 };
 
 class Tokens {
 public:
-    // The text of the file with this name.
+    // `text` is that of the file with this name.
     Tokens(std::string file, std::string text);
 
-    // The next one, or nothing at the end. Throws InputError for a string that does not end on its line.
+    // The next token, or nothing at the end. Throws InputError for a string that does not end on its line.
     const std::optional<Token>& peek();
     std::optional<Token> next();
 
-    // Appends numbers, or whole numbers of 32 bits, as far as they are finite and end at a blank or at a ]; the first that is not
-    // is next. The fast way through long lists.
+    // Appends numbers, or whole numbers of 32 bits, as long as they are finite and end at a blank or a ]; the next
+    // token is the first that is not. This is a fast way through long lists.
     void take_plain_numbers(bool whole, std::vector<double>& values);
 
     const std::string& file() const { return file_; }
     Location place(const Token& token) const { return {file_, token.line, token.column}; }
-    // Where the next token is, or the end.
+    // The place of the next token, or of the end.
     Location place();
 
 private:

@@ -7,7 +7,7 @@ namespace neumann::reader::pbrt {
 
 namespace {
 
-// From the world to a camera that looks along +z, with +x to the right and +y up.
+// The map from the world to a camera that looks along +z, with +x to the right and +y up.
 Mat4 look_at(const std::vector<double>& n, const Location& place) {
     const Vec3 eye(n[0], n[1], n[2]), target(n[3], n[4], n[5]), up(n[6], n[7], n[8]);
     if (eye == target) throw InputError(place, "LookAt looks from a point to the same point");
@@ -26,7 +26,7 @@ Mat4 rotation(const std::vector<double>& n, const Location& place) {
     return glm::rotate(Mat4(1.0), glm::radians(n[0]), axis / max_component(glm::abs(axis)));
 }
 
-// Column by column.
+// The numbers are column by column.
 Mat4 matrix(const std::string& directive, const std::vector<double>& n, const Location& place) {
     Mat4 m;
     for (int i = 0; i < 16; ++i) m[i / 4][i % 4] = n[static_cast<std::size_t>(i)];

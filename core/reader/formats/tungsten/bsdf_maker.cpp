@@ -48,7 +48,7 @@ Element BsdfMaker::make() {
     Element e = make_type(type);
     check_bump();
     refuse_media(o_, {"int_medium", "ext_medium"}, importing_);
-    o_.ignore({"name", "albedo"});  // of some, it has no effect
+    o_.ignore({"name", "albedo"});  // has no effect on some types
     o_.finish();
     return e;
 }
@@ -67,7 +67,7 @@ Element BsdfMaker::make_type(const std::string& type) {
     if (type == "thinsheet") return make_thin_sheet();
     if (type == "transparency") return make_transparency();
     if (type == "lambert") return make_lambert();
-    Element black = bsdf("diffuse");  // of 'null'
+    Element black = bsdf("diffuse");  // type 'null'
     add_rgb(black, "reflectance", Rgb(0.0), o_.place());
     return sided(std::move(black));
 }
@@ -110,13 +110,13 @@ void BsdfMaker::add_roughness(Element& e, double missing) {
     add_number(e, "alpha", roughness);
 }
 
-// By name, or by η and k.
+// Adds a metal by name, or by η and k.
 void BsdfMaker::add_metal(Element& e) {
     const std::optional<Vec3> eta = find_vector(o_, "eta"), k = find_vector(o_, "k");
     const std::optional<std::string> name = o_.text("material");
     if (name || !(eta || k)) {
         std::string metal = name.value_or("Cu");
-        // Some have a longer name in Mitsuba.
+        // Some metals have a longer name in Mitsuba.
         if (!is_metal(metal) && is_metal(metal + "_palik")) metal += "_palik";
         if (!is_metal(metal)) {
             std::vector<std::string> names;
@@ -143,7 +143,7 @@ void BsdfMaker::refuse_absorption() {
                           "taken as 0");
 }
 
-// Heights; a constant one bends nothing.
+// Refuses a bump map; constant heights bend nothing.
 void BsdfMaker::check_bump() {
     const nlohmann::json* bump = o_.value("bump");
     const bool varies = bump && (bump->is_string() || (bump->is_object() && bump->value("type", nlohmann::json()) != "constant"));

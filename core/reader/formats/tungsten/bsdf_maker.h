@@ -7,7 +7,7 @@ namespace neumann::reader::tungsten {
 
 class BsdfMaker {
 public:
-    // `sided`: what reflects is the same from both sides, as Tungsten has it where nothing lets light through.
+    // `sided`: what reflects is the same from both sides, which Tungsten assumes unless light is let through.
     BsdfMaker(JsonObject object, Bsdfs& all, Textures& textures, Importing& importing, bool sided)
         : o_(std::move(object)), all_(all), textures_(textures), importing_(importing), sided_(sided) {}
 
@@ -34,12 +34,12 @@ private:
     void add_indices(Element& e, double missing);
     void add_roughness(Element& e, double missing);
     void add_metal(Element& e);
-    // Of a layer that is not to absorb.
+    // Refuses a layer that absorbs.
     void refuse_absorption();
     void check_bump();
     Element bsdf(const std::string& type) const;
     Element two_sided(Element inner) const;
-    // If what reflects is the same from both sides.
+    // Makes the bsdf the same from both sides, if `sided`.
     Element sided(Element inner) const { return sided_ ? two_sided(std::move(inner)) : inner; }
 
     JsonObject o_;

@@ -1,4 +1,4 @@
-// What each type of material becomes.
+// Makes each type of material.
 #include "core/reader/formats/make_elements.h"
 #include "core/reader/formats/tungsten/bsdf_maker.h"
 
@@ -31,7 +31,7 @@ Element BsdfMaker::make_phong() {
     return sided(std::move(e));
 }
 
-// It reflects from both sides in any case.
+// Tungsten's mirror reflects from both sides in any case.
 Element BsdfMaker::make_mirror() {
     Element e = bsdf("conductor");
     add_string(e, "material", "none", o_.place());
@@ -47,7 +47,7 @@ Element BsdfMaker::make_conductor(bool is_rough) {
     return sided(std::move(e));
 }
 
-// Without refraction it is a plastic on black.
+// Without refraction a dielectric is a plastic on black.
 Element BsdfMaker::make_dielectric(bool is_rough) {
     const bool refracts = o_.boolean("enable_refraction", true);
     Element e = bsdf(refracts ? (is_rough ? "roughdielectric" : "dielectric") : (is_rough ? "roughplastic" : "plastic"));
@@ -78,7 +78,7 @@ Element BsdfMaker::make_plastic(bool is_rough) {
 Element BsdfMaker::make_thin_sheet() {
     Element e = bsdf("thindielectric");
     add_indices(e, 1.5);
-    textures_.find_number(o_, "thickness");  // for what is refused
+    textures_.find_number(o_, "thickness");  // matters only for interference, which is refused
     if (o_.boolean("enable_interference", false))
         importing_.refuse(o_.place_of("enable_interference"), "enable_interference is not supported", ", expected false",
                           "taken as false");
@@ -89,7 +89,8 @@ Element BsdfMaker::make_thin_sheet() {
     return e;
 }
 
-// Half of the light is reflected, half let through: a principledthin with diff_trans 2 lets all through, as Lambert has it.
+// Half of the light is reflected and half let through: a principledthin with diff_trans 2 only transmits, as by
+// Lambert's law.
 Element BsdfMaker::make_diffuse_transmission() {
     const TextureValue color = albedo();
     Element reflecting = bsdf("diffuse"), transmitting = bsdf("principledthin"), e = bsdf("blendbsdf");
@@ -105,7 +106,7 @@ Element BsdfMaker::make_diffuse_transmission() {
 Element BsdfMaker::make_mixed() {
     Element e = bsdf("blendbsdf");
     add_number(e, "weight", textures_.find_number(o_, "ratio").value_or(TextureValue{o_.place(), Rgb(0.5)}));
-    // The weight is that of the second.
+    // The weight is that of the second bsdf.
     for (const char* name : {"bsdf1", "bsdf0"})
         if (!all_.add_nested(e, o_, name, sided_)) o_.fail_missing(name, "the name of a bsdf or an object");
     if (const TextureValue color = albedo(); color.texture || color.constant != Rgb(1.0))

@@ -15,7 +15,7 @@ namespace neumann::reader::tungsten {
 
 namespace {
 
-// Nothing is cut off there; here nothing where scenes are.
+// Tungsten clips nothing; these distances clip nothing where scenes are.
 constexpr double nearest_depth = 1e-4, farthest_depth = 1e7;
 
 FilmSize read_resolution(JsonObject& camera) {
@@ -60,7 +60,7 @@ Element make_filter(JsonObject& camera, Importing& importing) {
     return make_object("rfilter", "box", place);
 }
 
-// From the camera to the middle of the primitive of this name.
+// The distance from the camera to the middle of the primitive of this name.
 double distance_to_pivot(JsonObject& root, JsonObject& camera, const std::string& name, const Vec3& from, Importing& importing) {
     const JsonList primitives = root.list("primitives");
     for (std::size_t i = 0; i < primitives.size(); ++i) {

@@ -1,11 +1,11 @@
-// The camera as a <sensor>.
+// Reads the camera as a <sensor>.
 #pragma once
 
 #include "core/reader/formats/tungsten/importing.h"
 
 namespace neumann::reader::tungsten {
 
-// Adds it to the scene.
+// Adds the sensor to the scene.
 void read_camera(JsonObject& root, Importing& importing);
 
 }  // namespace neumann::reader::tungsten

@@ -15,7 +15,7 @@ MeshFile make_cube() {
                 cube.mesh.vertices.push_back(corner);
                 cube.mesh.uv.push_back(uv);
             }
-            // Counter-clockwise as seen from outside.
+            // The corners are counter-clockwise as seen from outside.
             for (const std::uint32_t corner : {1u, 2u}) {
                 const std::uint32_t other = corner + 1;
                 cube.mesh.triangles.push_back(

@@ -36,14 +36,14 @@ RawScene import_tungsten(const std::string& path, const NamedValues& definitions
     refuse_other_programs(root);
     problems.attempt(root.place(), [&] { read_integrator(root, importing); });
     if (!problems.attempt(root.place(), [&] { read_camera(root, importing); }))
-        add(scene.root, make_object("sensor", "perspective", root.place()));  // so that it is not told twice
+        add(scene.root, make_object("sensor", "perspective", root.place()));  // so that it is not reported twice
     Textures textures(importing);
     Bsdfs bsdfs(root, textures, importing);
     bsdfs.add_all();
     Primitives primitives(root, bsdfs, textures, importing);
     primitives.add_all();
     if (!primitives.emit()) add_surroundings(scene.root, warnings);  // as in Tungsten
-    // Media count where something names them, and the command line says how to render.
+    // Media matter only where something names them, and the command line says how to render.
     root.ignore({"media", "renderer", "name"});
     root.finish();
     return scene;

@@ -1,4 +1,5 @@
-// Reads scenes of Tungsten, .json (https://github.com/tunabrain/tungsten); apps/manual/tungsten.md says what becomes of what.
+// Reads scenes of Tungsten, .json (https://github.com/tunabrain/tungsten); apps/manual/tungsten.md describes what
+// becomes of each property.
 #pragma once
 
 #include "core/base/warnings.h"
@@ -7,8 +8,8 @@
 
 namespace neumann::reader {
 
-// Adds errors to `problems`, at their JSON pointers, and goes on without what is wrong. Throws InputError where there is no scene
-// at all. `definitions`: of -D.
+// Adds errors to `problems`, at their JSON pointers, and reads on without what is wrong. Throws InputError if there is
+// no scene at all. `definitions` are those of -D.
 RawScene import_tungsten(const std::string& path, const NamedValues& definitions, Warnings& warnings, Problems& problems);
 
 }  // namespace neumann::reader

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::int64_t usual_bounces = 64;
 
-// How paths are drawn, by any of the integrators.
+// These say how paths are drawn, in any of the integrators.
 void ignore_settings(JsonObject& integrator) {
     integrator.ignore({"alpha",
                        "bidirectional",
@@ -58,7 +58,7 @@ void read_integrator(JsonObject& root, Importing& importing) {
             if (integrator->boolean("enable_consistency_checks", false))
                 importing.notes.warnings.add("enable_consistency_checks of the integrator is left out");
             importing.two_sided = integrator->boolean("enable_two_sided_shading", true);
-            // With it, only what has passed through a medium is seen.
+            // Without surfaces only what has passed through a medium is seen.
             if (!integrator->boolean("include_surfaces", true))
                 importing.refuse(integrator->place_of("include_surfaces"), "include_surfaces is false", ", expected true",
                                  "taken as true");
@@ -67,7 +67,7 @@ void read_integrator(JsonObject& root, Importing& importing) {
         });
     }
     Element integrator = make_object("integrator", "path", place);
-    add_integer(integrator, "max_depth", most, place);  // of which both programs count the vertices after the camera's
+    add_integer(integrator, "max_depth", most, place);  // both programs count the vertices after the camera's
     add(importing.scene.root, std::move(integrator));
 }
 

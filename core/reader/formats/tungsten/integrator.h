@@ -1,11 +1,11 @@
-// How many bounces there are, and which sides reflect.
+// Reads how many bounces there are, and which sides reflect.
 #pragma once
 
 #include "core/reader/formats/tungsten/importing.h"
 
 namespace neumann::reader::tungsten {
 
-// Adds the <integrator> to the scene, and says whether what reflects is two-sided.
+// Adds the <integrator> to the scene, and sets `importing.two_sided`.
 void read_integrator(JsonObject& root, Importing& importing);
 
 }  // namespace neumann::reader::tungsten

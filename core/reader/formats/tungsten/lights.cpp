@@ -12,7 +12,7 @@ namespace {
 
 constexpr double per_whole_sphere = 0.25 / std::numbers::pi;
 
-// Tungsten's pictures begin at −x and go on over −z; those of Mitsuba begin at −z and go on over +x.
+// Tungsten's pictures begin at −x and go on over −z; Mitsuba's begin at −z and go on over +x.
 Mat4 of_environment(const Mat4& transform) {
     const Mat4 turn(glm::dvec4(0, 0, -1, 0), glm::dvec4(0, 1, 0, 0), glm::dvec4(1, 0, 0, 0), glm::dvec4(0, 0, 0, 1));
     return rotation_of(transform) * turn;

@@ -35,7 +35,7 @@ Vec3 normal_of(const TriangleMesh& mesh, const std::array<std::uint32_t, 3>& t) 
     return glm::cross(mesh.vertices[t[1]] - mesh.vertices[t[0]], mesh.vertices[t[2]] - mesh.vertices[t[0]]);
 }
 
-// Vertices without a normal get that of their triangles.
+// Gives vertices without a normal that of their triangles.
 void fill_normals(MeshFile& file) {
     std::vector<Vec3> sums(file.normals.size(), Vec3(0.0));
     for (const auto& t : file.mesh.triangles)
@@ -44,8 +44,8 @@ void fill_normals(MeshFile& file) {
         if (length_of(file.normals[i]) == 0.0) file.normals[i] = sums[i];
 }
 
-// Light leaves the side from which the triangles go around counter-clockwise, whatever their normals say, while here meshes turn to
-// the side of their normals.
+// Turns normals to the side from which triangles are counter-clockwise. Tungsten's light leaves that side, whatever the
+// normals say, while meshes here turn to the side of their normals.
 void turn_normals_to_light(MeshFile& file) {
     for (const auto& t : file.mesh.triangles) {
         const Vec3 n = normal_of(file.mesh, t);

@@ -1,4 +1,4 @@
-// The meshes that files hold, as Tungsten shows them.
+// Reads meshes from files, as Tungsten shows them.
 #pragma once
 
 #include "core/reader/formats/tungsten/importing.h"
@@ -11,7 +11,7 @@ namespace neumann::reader::tungsten {
 // What a primitive says about its mesh.
 struct MeshLook {
     bool is_smooth = false;   // otherwise flat, whatever normals the file has
-    bool recomputes = false;  // normals anew, if it is smooth
+    bool recomputes = false;  // a smooth mesh gets new normals
     bool emits = false;
     std::size_t materials = 1;
     auto operator<=>(const MeshLook&) const = default;
@@ -20,7 +20,7 @@ struct MeshLook {
 // The triangles of one material.
 struct MeshPart {
     std::size_t material;
-    std::string filename;  // of a mesh in memory
+    std::string filename;  // names a mesh in memory
     std::shared_ptr<const MeshFile> file;
 };
 
@@ -28,9 +28,9 @@ class MeshParts {
 public:
     explicit MeshParts(Importing& importing) : importing_(importing) {}
 
-    // Of a .wo3 or a .obj. Throws InputError.
+    // Reads a .wo3 or a .obj. Throws InputError.
     const std::vector<MeshPart>& read(const std::string& path, const Location& place, const MeshLook& look);
-    // A mesh in memory.
+    // Keeps a mesh in memory.
     MeshPart keep(MeshFile file, const std::string& name, std::size_t material = 0);
 
 private:
@@ -38,7 +38,7 @@ private:
     std::map<std::pair<std::string, MeshLook>, std::vector<MeshPart>> known_;
 };
 
-// The area as it stands in the scene.
+// The area of the mesh in the scene.
 double area_of(const TriangleMesh& mesh, const Mat4& to_world);
 
 }  // namespace neumann::reader::tungsten

@@ -16,10 +16,10 @@ namespace {
 const std::vector<std::string> primitive_types = {"cube", "cylinder", "disk", "infinite_sphere", "instances",
                                                   "mesh", "point",    "quad", "sphere"};
 
-// What none of the primitives has an effect by, or that is refused at all of them.
+// Refuses or ignores properties that every primitive may have.
 void finish(JsonObject& primitive, Importing& importing) {
     refuse_media(primitive, {"int_medium", "ext_medium"}, importing);
-    // Older files have these here and not in bsdfs.
+    // Older files have these properties here and not in bsdfs.
     if (primitive.has("bump"))
         importing.refuse(primitive.place_of("bump"), "bump is not supported", ": how deep it is depends on the picture's size",
                          "left out");
@@ -97,7 +97,7 @@ std::vector<std::string> Primitives::add_groups(const JsonList& masters) {
     return ids;
 }
 
-// They are turned and moved, and not scaled.
+// Instances are turned and moved, and not scaled.
 void Primitives::add_instances(JsonObject& primitive) {
     const Mat4 m = read_transform(primitive);
     const std::vector<std::string> groups = add_groups(primitive.list("masters"));

@@ -1,4 +1,4 @@
-// The primitives as <shape>s and <emitter>s.
+// Makes the primitives as <shape>s and <emitter>s.
 #pragma once
 
 #include "core/reader/formats/tungsten/bsdfs.h"
@@ -11,16 +11,16 @@ public:
     Primitives(JsonObject& root, Bsdfs& bsdfs, Textures& textures, Importing& importing)
         : list_(root.list("primitives")), bsdfs_(bsdfs), textures_(textures), importing_(importing), meshes_(importing) {}
 
-    // Adds them to the scene.
+    // Adds the primitives to the scene.
     void add_all();
-    // Whether one of them emits.
+    // Whether any of them emits.
     bool emit() const { return emit_; }
 
 private:
     using Shapes = std::vector<Element>;
 
     void add(JsonObject primitive);
-    // Of what is a surface. Throws InputError.
+    // Makes the shapes of a primitive that is a surface. Throws InputError.
     Shapes make_surface(JsonObject& primitive, const std::string& type);
     Shapes make_mesh(JsonObject& primitive, const Mat4& m);
     Element make_quad(JsonObject& primitive, const Mat4& m);
@@ -29,12 +29,12 @@ private:
     Element make_disk(JsonObject& primitive, const Mat4& m);
     Shapes make_cylinder(JsonObject& primitive, const Mat4& m);
     void add_instances(JsonObject& primitive);
-    // Of each of the things that are instanced; "" for one that is wrong.
+    // The ids of the groups of the instanced things; "" for one that is wrong.
     std::vector<std::string> add_groups(const JsonList& masters);
 
-    // What it emits, from this area, and whether it does.
+    // Adds what a primitive of this area emits, and notes whether it emits.
     void add_emission(Element& shape, JsonObject& primitive, double area);
-    // Material and emission of a round shape, whose coordinates are others here.
+    // Adds material and emission to a round shape, whose texture coordinates differ from Tungsten's.
     void finish_round(Element& shape, JsonObject& primitive, double area);
 
     JsonList list_;

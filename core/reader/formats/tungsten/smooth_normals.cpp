@@ -11,13 +11,13 @@ namespace {
 
 const double least_cosine = std::cos(0.15 * std::numbers::pi);
 
-// Triangles at one place whose normals are near that of the first of them. There are at most some dozens at a place, as many as
-// directions 27° apart.
+// Triangles at one place whose normals are near that of the first of them. A place has at most some dozens of clusters,
+// as many as there are directions 27° apart.
 struct Cluster {
     Vec3 first, sum{0.0};
 };
 
-// The places of a mesh, numbered; each vertex has one.
+// Numbers the places of a mesh; each vertex has one.
 std::vector<std::size_t> places_of(const TriangleMesh& mesh, std::size_t& count) {
     std::map<std::tuple<double, double, double>, std::size_t> known;
     std::vector<std::size_t> places;

@@ -1,4 +1,4 @@
-// The primitives that are surfaces.
+// Makes the primitives that are surfaces.
 #include "core/base/frame.h"
 #include "core/geometry/affine.h"
 #include "core/reader/formats/make_elements.h"
@@ -18,7 +18,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-// Throws InputError where a length is 0.
+// Throws InputError if a length is 0.
 void expect_extent(std::initializer_list<double> lengths, const JsonObject& primitive) {
     if (std::min(lengths) > 0.0) return;
     throw InputError(primitive.place_of("transform"), "the scale of transform is 0, expected another");
@@ -30,7 +30,7 @@ Element make_shape(const std::string& type, const JsonObject& primitive, const M
     return shape;
 }
 
-// A unit circle around z, moved to a centre and turned to a unit normal.
+// The map of a unit circle around z to a circle with this normal, of length 1, center and radius.
 Mat4 facing(const Vec3& normal, const Vec3& center, double radius) {
     const Frame frame(normal);
     return {glm::dvec4(frame.s * radius, 0.0), glm::dvec4(frame.t * radius, 0.0), glm::dvec4(frame.n, 0.0),
@@ -39,7 +39,7 @@ Mat4 facing(const Vec3& normal, const Vec3& center, double radius) {
 
 }  // namespace
 
-// From −0.5 to 0.5 in x and z. The front is where z × x points, also in a mirror.
+// A quad extends from −0.5 to 0.5 in x and z. Its front is where z × x points, also in a mirror.
 Element Primitives::make_quad(JsonObject& primitive, const Mat4& m) {
     const Vec3 x(m[0]), z(m[2]);
     expect_extent({length_of(x), length_of(z)}, primitive);
@@ -64,7 +64,7 @@ Element Primitives::make_cube(JsonObject& primitive, const Mat4& m) {
     return shape;
 }
 
-// Its coordinates begin at −x.
+// The texture coordinates of a sphere begin at −x.
 Element Primitives::make_sphere(JsonObject& primitive, const Mat4& m) {
     const double radius = max_component(scale_of(m));
     expect_extent({radius}, primitive);
@@ -89,7 +89,7 @@ void Primitives::finish_round(Element& shape, JsonObject& primitive, double area
                                   "they lie there otherwise");
 }
 
-// In x and z, with its front at +y.
+// A disk lies in x and z, with its front at +y.
 Element Primitives::make_disk(JsonObject& primitive, const Mat4& m) {
     const Vec3 scale = scale_of(m);
     const double radius = std::max(scale.x, scale.z);
@@ -103,13 +103,13 @@ Element Primitives::make_disk(JsonObject& primitive, const Mat4& m) {
     return shape;
 }
 
-// Around y, from −0.5 to 0.5, of diameter 1.
+// A cylinder stands around y, from −0.5 to 0.5, with diameter 1.
 Primitives::Shapes Primitives::make_cylinder(JsonObject& primitive, const Mat4& m) {
     const Vec3 scale = scale_of(m);
     const double radius = 0.5 * std::max(scale.x, scale.z), height = scale.y;
     expect_extent({radius, height}, primitive);
     const Vec3 axis = Vec3(m[1]) / height, center(m[3]);
-    const double area = 2.0 * pi * radius * (radius + height);  // with its ends in any case
+    const double area = 2.0 * pi * radius * (radius + height);  // with its ends, which Tungsten counts in any case
     Shapes shapes;
     Element& side = shapes.emplace_back(make_object("shape", "cylinder", primitive.place()));
     reader::add_point(side, "p0", center - axis * (0.5 * height), primitive.place_of("transform"));
@@ -132,7 +132,7 @@ Primitives::Shapes Primitives::make_mesh(JsonObject& primitive, const Mat4& m) {
     look.is_smooth = primitive.boolean("smooth", false);
     look.recomputes = primitive.boolean("recompute_normals", false);
     look.emits = primitive.has("emission") || primitive.has("power");
-    primitive.ignore({"backface_culling"});  // Tungsten reads it and does nothing
+    primitive.ignore({"backface_culling"});  // Tungsten reads it without any effect
     const nlohmann::json* bsdf = primitive.value("bsdf");
     const bool has_several = bsdf && bsdf->is_array();
     if (has_several) look.materials = bsdf->size();

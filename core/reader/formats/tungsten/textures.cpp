@@ -13,7 +13,7 @@ namespace neumann::reader::tungsten {
 
 namespace {
 
-// Tungsten's v grows upwards in pictures, Mitsuba's downwards.
+// In pictures, Tungsten's v grows upwards and Mitsuba's downwards.
 Mat4 upside_down() {
     Mat4 m(1.0);
     m[1][1] = -1.0;
@@ -33,7 +33,8 @@ void add_texture(Element& parent, const std::string& name, const TextureValue& v
     e.attributes.push_back({"name", name, value.place});
 }
 
-// The mean of the colours, or alpha. Without one, whole numbers are opaque and floats are a mean, as in Tungsten.
+// The mean of the colours, or alpha. Without alpha, pictures of whole numbers are opaque and those of floats use the
+// mean, as in Tungsten.
 Texels numbers_of(const Texels& from, bool alpha) {
     Texels result{from.width, from.height, 1};
     const std::size_t channels = static_cast<std::size_t>(from.channels), count = from.values.size() + from.bytes.size();
@@ -139,7 +140,7 @@ std::string Textures::number_picture(const std::string& path, const Location& pl
     return name;
 }
 
-// Of res_u × res_v squares, of which the one at (0, 0) is off.
+// A checkerboard of res_u × res_v squares, of which the one at (0, 0) is off.
 TextureValue Textures::read_checker(JsonObject& texture, Kind kind) {
     constexpr std::int64_t usual_squares = 20, most_squares = 1 << 20;
     const Vec3 on = find_vector(texture, "on_color").value_or(Vec3(0.8)),
@@ -150,7 +151,7 @@ TextureValue Textures::read_checker(JsonObject& texture, Kind kind) {
     const double across = squares("res_u"), up = squares("res_v");
     texture.finish();
     Element e = make_object("texture", "checkerboard", texture.place());
-    // A checkerboard that is a number has its squares the other way round.
+    // A checkerboard that is evaluated as a number has its squares swapped.
     const bool is_color = kind == Kind::color;
     const auto add_square = [&](const std::string& name, const Vec3& value, const std::string& from) {
         if (is_color)

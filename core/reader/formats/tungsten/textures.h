@@ -1,4 +1,4 @@
-// Colours and numbers that may vary over a surface.
+// Reads colours and numbers that may vary over a surface.
 #pragma once
 
 #include "core/reader/formats/tungsten/importing.h"
@@ -13,7 +13,7 @@ struct TextureValue {
     Location place = {};
     Rgb constant{0.0};
     std::optional<Element> texture = {};
-    // Of a colour that is a picture, as light from afar has it.
+    // The file of a colour that is a picture, for light from afar.
     std::string filename = {};
     double picture_scale = 1.0;
     bool is_raw = false;
@@ -23,7 +23,7 @@ struct TextureValue {
 
 TextureValue times(const TextureValue& value, double factor);
 
-// Adds it as a parameter.
+// These add the value as a parameter.
 void add_color(Element& parent, const std::string& name, const TextureValue& value);
 void add_number(Element& parent, const std::string& name, const TextureValue& value);
 
@@ -31,8 +31,8 @@ class Textures {
 public:
     explicit Textures(Importing& importing) : importing_(importing) {}
 
-    // Nothing where the property is missing or wrong, after a problem. Numbers are the mean of a picture's channels, and an opacity
-    // its alpha.
+    // These return nothing if the property is missing or, which is a problem, wrong. Numbers are the mean of a
+    // picture's channels, and an opacity is its alpha.
     std::optional<TextureValue> find_color(JsonObject& object, const std::string& name) { return find(object, name, Kind::color); }
     std::optional<TextureValue> find_number(JsonObject& object, const std::string& name) { return find(object, name, Kind::mean); }
     std::optional<TextureValue> find_opacity(JsonObject& object, const std::string& name) {
@@ -46,7 +46,7 @@ private:
     TextureValue read(JsonObject texture, Kind kind);
     TextureValue read_checker(JsonObject& texture, Kind kind);
     TextureValue make_bitmap(const std::string& path, JsonObject* options, const Location& place, Kind kind);
-    // Of a picture in memory.
+    // The name of a picture in memory that holds the numbers.
     std::string number_picture(const std::string& path, const Location& place, Kind kind);
 
     Importing& importing_;

@@ -17,8 +17,8 @@ Vec3 unit(const Vec3& v) {
     return length > 0.0 ? v / length : v;
 }
 
-// The axes in the order in which they keep their direction. What is given comes before what is not, z before y and that before x;
-// only with x they give way otherwise.
+// The axes in the order in which they keep their direction: given axes come before others, and among each of these z
+// before y before x.
 std::array<std::size_t, 3> order_of(const std::array<bool, 3>& given) {
     const auto [x, y, z] = given;
     constexpr std::array<std::size_t, 3> zyx = {2, 1, 0}, zxy = {2, 0, 1}, yxz = {1, 0, 2}, yzx = {1, 2, 0}, xzy = {0, 2, 1};
@@ -27,7 +27,8 @@ std::array<std::size_t, 3> order_of(const std::array<bool, 3>& given) {
     return x ? xzy : zyx;
 }
 
-// The first keeps its direction, and each other is made perpendicular to those before; one along them is replaced.
+// The first axis keeps its direction, and each other one is made perpendicular to those before; one that is parallel to
+// them is replaced.
 void make_perpendicular(Axes& axes, const std::array<std::size_t, 3>& order) {
     constexpr double smallest_sine = 0.003;
     Vec3 &a = axes[order[0]], &b = axes[order[1]], &c = axes[order[2]];
@@ -41,7 +42,7 @@ void make_perpendicular(Axes& axes, const std::array<std::size_t, 3>& order) {
     replace_if_along(c, c - a * glm::dot(a, c) - b * glm::dot(b, c), glm::cross(a, b));
 }
 
-// Degrees: about z, then x, then y, the last the other way round.
+// Rotates, in degrees, about z, then x, then y, about y in the other sense.
 Mat4 rotation(const Vec3& degrees) {
     const Vec3 angle = glm::radians(degrees);
     Mat4 m = glm::rotate(Mat4(1.0), -angle.y, Vec3(0, 1, 0));
@@ -68,7 +69,7 @@ Mat4 read_parts(JsonObject transform) {
     take(1, "y_axis", Vec3(0.0));
     take(2, "z_axis", Vec3(0.0));
     make_perpendicular(axes, order_of(given));
-    // Right-handed; what is not given turns around.
+    // The axes become right-handed; one that is not given turns around.
     if (glm::dot(glm::cross(axes[0], axes[1]), axes[2]) < 0.0) {
         Vec3& turned = axes[!given[0] ? 0 : !given[1] ? 1 : 2];
         turned = -turned;
