@@ -14,12 +14,12 @@ Batch::Batch(const SensorOptions& options, const Film& film, const Geometry* geo
     sensors_ = std::make_shared<const std::vector<Sensor>>(std::move(sensors));
 }
 
-// Beyond the film's edges, where samples may lie, the outermost sensors go on.
+// Samples beyond the film's edges belong to the outermost sensors.
 std::size_t Batch::at(const Vec2& position) const {
     return static_cast<std::size_t>(std::clamp(std::floor(position.x / width_), 0.0, static_cast<double>(sensors_->size()) - 1.0));
 }
 
-// Those whose pixels all measure the same only need to know where in its pixel a sample lies.
+// A sensor whose pixels all measure the same only needs to know where in its pixel a sample lies.
 Vec2 Batch::own(std::size_t sensor, const Vec2& position) const {
     if ((*sensors_)[sensor].options().is_even()) return position;
     return {(position.x - static_cast<double>(sensor) * width_) * stretch_, position.y};

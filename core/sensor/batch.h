@@ -11,12 +11,12 @@ class Sensor;
 
 class Batch {
 public:
-    // Where the film's width is no multiple of their number, as that of small trial pictures may be, pictures are stretched a
-    // little.
+    // If the film's width is no multiple of the number of sensors, as for some small trial pictures, the pictures are
+    // stretched a little.
     Batch(const SensorOptions& options, const Film& film, const Geometry* geometry);
 
     CameraRay ray(const Vec2& position, const Vec2& lens) const;
-    // Seen from one of the sensors, which `lens` chooses.
+    // How one of the sensors, which `lens` chooses, sees a point.
     std::optional<FilmPoint> see(const Vec3& p, const Vec2& lens) const;
     double pixels_per_area(const CameraRay& ray, const Vec3& p) const;
     double response(const Vec2& position) const;
@@ -28,7 +28,7 @@ private:
     Vec2 own(std::size_t sensor, const Vec2& position) const;
 
     std::shared_ptr<const std::vector<Sensor>> sensors_;
-    double width_, stretch_;  // of each part, pixels; the sensor's own width over that
+    double width_, stretch_;  // of each part, in pixels; the width of the sensor's own film over that
 };
 
 }  // namespace neumann

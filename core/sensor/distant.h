@@ -16,7 +16,7 @@ public:
     CameraRay ray(const Vec2& position, const Vec2&) const;
     std::optional<FilmPoint> see(const Vec3& p, const Vec2& lens) const;
     double pixels_per_area(const CameraRay&, const Vec3& p) const { return film_.pixels() * density(p); }
-    // Nothing but the one ray sees anything.
+    // Whether there is one ray only, of which see() finds no point.
     bool is_single_ray() const { return std::holds_alternative<Vec3>(target_); }
 
 private:
@@ -27,7 +27,7 @@ private:
     };
 
     Vec3 aim(const Vec2& u) const;
-    // Of the rays, per area across them at p; infinite for a single ray.
+    // The density of the rays at p, per area perpendicular to them; infinite for a single ray.
     double density(const Vec3& p) const;
     Vec3 beyond_scene(const Vec3& p) const;
 

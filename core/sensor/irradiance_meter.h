@@ -2,7 +2,7 @@
 //
 //     E = 1/A ∫∫ L(p, ω) cosθ dω dA = π E[L(p, ω)],   p uniform by area, ω in proportion to cosθ.
 //
-// Its terms are the irradiances by light of so many bounces. All pixels measure the same.
+// Its terms are the irradiances by light of each number of bounces. All pixels measure the same.
 #pragma once
 
 #include "core/geometry/area_sampler.h"
@@ -22,7 +22,7 @@ public:
     double response() const { return pi; }
 
 private:
-    // Of the rays that leave a point of the meter, at the distance d.
+    // The density at the end of d of the rays that leave a point of the meter, in pixels per area perpendicular to d.
     double density(double cosine, const Vec3& d) const { return film_.pixels() * cosine * inv_pi / glm::dot(d, d); }
 
     std::shared_ptr<const AreaSampler> points_;

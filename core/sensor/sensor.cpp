@@ -47,7 +47,7 @@ double Sensor::largest_response() const {
 }
 
 bool Sensor::can_be_joined() const {
-    // Of the directions around the sensor, it sees 1e-11.
+    // Such a sensor sees 1e-11 of the directions around it.
     constexpr double narrow = 1e-5;  // radians
     if (std::holds_alternative<Perspective>(sensor_) && options_.fov < narrow) return false;
     if (const auto* distant = std::get_if<DistantSensor>(&sensor_)) return !distant->is_single_ray();

@@ -1,5 +1,5 @@
-// The sensors: Mitsuba's `perspective`, `thinlens`, `orthographic`, `irradiancemeter`, `distant` and `batch`. A closed set, like
-// materials and lights.
+// The sensors: Mitsuba's `perspective`, `thinlens`, `orthographic`, `irradiancemeter`, `distant` and `batch`. They are
+// a closed set, like materials and lights.
 #pragma once
 
 #include "core/sensor/batch.h"
@@ -15,7 +15,7 @@ namespace neumann {
 
 class Sensor {
 public:
-    // `geometry`: the scene's, which irradiance meters and distant sensors need; it must outlive the sensor.
+    // `geometry` is the scene's. Irradiance meters and distant sensors need it, and it must outlive the sensor.
     Sensor(const SensorOptions& options, const Film& film, const Geometry* geometry = nullptr);
 
     // `position`: pixels from the upper left corner of the film; `lens`: point on the lens in [0, 1)², if there is a lens.
@@ -37,15 +37,15 @@ public:
     double pixels_per_area(const CameraRay& ray, const Vec3& p) const {
         return std::visit([&](const auto& sensor) { return sensor.pixels_per_area(ray, p); }, sensor_);
     }
-    // What is measured at a position where all rays bring the radiance 1: that is 1 for cameras, and π for an irradiance.
+    // The measured value at a position where all rays bring the radiance 1: 1 for cameras, and π for an irradiance.
     double response(const Vec2& position) const;
     double largest_response() const;
 
     const SensorOptions& options() const { return options_; }
     // Whether `lens` makes a difference.
     bool has_lens() const { return has_lens_; }
-    // Whether see() finds the points that rays of the sensor hit, among points on surfaces. Not those of a single ray, nor of a
-    // field of view as narrow as that of a `radiancemeter`, where none would lie.
+    // Whether see() finds the points on surfaces that rays of the sensor hit. It does not for a single ray, nor for a
+    // field of view as narrow as that of a `radiancemeter`, in which no point would lie.
     bool can_be_joined() const;
 
 private:

@@ -42,8 +42,8 @@ private:
 
 // A ray from the camera into the scene; it ends at the far plane.
 struct CameraRay : Ray {
-    double cosine = 1.0;       // of its angle with the normal of the surface where it starts, if there is one
-    std::uint32_t sensor = 0;  // of those of a batch
+    double cosine = 1.0;       // between the ray and the normal of the surface where it starts, if there is one
+    std::uint32_t sensor = 0;  // index in a batch
 };
 
 // How the camera sees a point: the reversed camera ray through it.
@@ -85,7 +85,7 @@ private:
     double area_;
 };
 
-// The image axis that a field of view is given for.
+// The image axis to which a field of view applies.
 enum class FovAxis { x, y, diagonal, smaller, larger };
 // tan of half the angle across the width of an image of the aspect ratio width / height.
 double tan_half_width(double fov, FovAxis axis, double aspect);
@@ -100,10 +100,10 @@ struct SensorOptions {
     double near_clip = 1e-2, far_clip = 1e4;  // scene units
     Kind kind = Kind::perspective;
     double aperture_radius = 0.0, focus_distance = 0.0;  // scene units; for `thin_lens`
-    std::uint32_t shape = 0;                             // of the scene, on which an `irradiance_meter` lies
-    // Where `distant` looks: at all of the scene, at a point, or at a shape, which need not be in the scene.
+    std::uint32_t shape = 0;                             // index of the shape on which an `irradiance_meter` lies
+    // The target of `distant`: all of the scene, a point, or a shape, which need not be in the scene.
     std::variant<std::monostate, Vec3, std::shared_ptr<const Shape>> target = {};
-    std::vector<SensorOptions> sensors = {};  // of a `batch`, from left to right
+    std::vector<SensorOptions> sensors = {};  // parts of a `batch`, from left to right
 
     // Whether all pixels measure the same.
     bool is_even() const { return kind == Kind::irradiance_meter || kind == Kind::distant; }
@@ -112,8 +112,8 @@ struct SensorOptions {
     }
 };
 
-// The film as the sensor needs it: one whose pixels all measure the same has the box filter, for it takes the places of samples
-// within their pixels as random numbers.
+// The film as the sensor needs it. A sensor whose pixels all measure the same takes the places of samples within their
+// pixels as random numbers, so its film has the box filter.
 inline Film film_of(const SensorOptions& options, Film film) {
     if (options.is_even()) film.filter = BoxFilter();
     return film;
