@@ -38,7 +38,7 @@ private:
 // Parallel light from infinitely far away (Mitsuba's `directional`).
 class DirectionalLight {
 public:
-    // `direction`: in which the light travels.
+    // `direction` is the one in which the light travels.
     DirectionalLight(const Vec3& direction, const Rgb& irradiance) : direction_(direction), irradiance_(irradiance) {}
 
     Beam beam(const Vec3& at, const Surroundings& scene) const {

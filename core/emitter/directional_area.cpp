@@ -12,7 +12,7 @@ bool is_flat(const Shape& shape) {
     const auto* mesh = std::get_if<TriangleMesh>(&shape);
     if (!mesh) return false;
     constexpr double tolerance = 1e-6;
-    // The largest triangle has the surest normal.
+    // The largest triangle has the most accurate normal.
     Vec3 corner(0.0), largest(0.0);
     Bounds bounds;
     for (std::uint32_t i = 0; i < mesh->triangles.size(); ++i) {
@@ -78,7 +78,7 @@ Rgb DirectionalArea::exitance(const Vec3& at) const {
 
 Beam DirectionalArea::beam(const Vec3& at, const Surroundings&) const {
     if (!is_in_front(at)) return {at - normal_};
-    // The ray that looks for the light ends off the surface by its rounding error.
+    // The shadow ray ends off the surface, by the surface's rounding error.
     return {at - normal_ * (height(at) - error_), exitance(at)};
 }
 

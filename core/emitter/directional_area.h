@@ -29,16 +29,17 @@ public:
     bool is_grey() const { return !light_.function && neumann::is_grey(light_.largest); }
 
     const Vec3& normal() const { return normal_; }
-    // A point from which light sets out, uniform by area, with density().
+    // Samples a point from which light sets out, uniform by area, with density().
     Vec3 start(const Vec2& u) const;
     double density() const { return 1.0 / area_; }
-    // Of the shape at the foot of the perpendicular from a point.
+    // The exitance of the shape at the foot of the perpendicular from a point.
     Rgb exitance(const Vec3& at) const;
     // Whether the beam reaches a point, were nothing in its way.
     bool lights(const Vec3& at) const { return is_in_front(at) && foot(at); }
 
 private:
-    // Not so near that rounding decides: points of the shape itself are as far from its plane as their errors and the plane's.
+    // Whether p is in front of the shape, and not so near that rounding decides: points of the shape itself are as far
+    // from its plane as their errors and the plane's.
     bool is_in_front(const Vec3& p) const { return height(p) > 2.0 * error_; }
     double height(const Vec3& p) const { return glm::dot(p - corner_, normal_); }
     // The point of the shape's surface below p, if there is one.
@@ -47,8 +48,8 @@ private:
     std::shared_ptr<const std::vector<Shape>> shapes_;
     std::uint32_t shape_;
     AreaLight light_;
-    std::vector<Triangle> triangles_;  // of a mesh
-    std::vector<double> cumulative_;   // their areas
+    std::vector<Triangle> triangles_;  // if the shape is a mesh
+    std::vector<double> cumulative_;   // of the triangles' areas
     Vec3 corner_, normal_;
     double error_, area_;
 };

@@ -12,7 +12,8 @@ EmissionSampler::EmissionSampler(const Geometry& geometry, const Emitters& emitt
       emitters_(&emitters),
       table_(geometry, emitters, emitters.powers(), LightTable::Rectangles::as_triangles) {
     const double all = std::accumulate(emitters.powers().begin(), emitters.powers().end(), 0.0);
-    // 1/A for the point times |cosθ|/π for the direction; d²/|cosθ| to the solid angle at x times 1/d² to the area at x: 1/(π A).
+    // The densities are 1/A for the point and |cosθ|/π for the direction. The factors d²/|cosθ| to the solid angle at x
+    // and 1/d² to the area at x leave 1/(π A).
     for (std::uint32_t shape = 0; shape < geometry.shapes().size(); ++shape) {
         const double power = emitters.powers()[shape];
         density_of_shape_.push_back(power > 0.0 ? power / all / emitters.area(shape) * inv_pi : 0.0);

@@ -30,11 +30,12 @@ struct DistantSample {
 
 // A sample of the emission of a distant light.
 struct DistantEmission {
-    Vec3 from;         // position of the light; if it is infinitely far away, a point outside the scene
-    Vec3 w;            // direction in which the light travels
-    Rgb light{0.0};    // power / pdf
-    double pdf = 0.0;  // of w, per solid angle, unless the light has a single direction; if the light is infinitely far away, times
-                       // the density of the point, per area perpendicular to w
+    Vec3 from;       // position of the light; if it is infinitely far away, a point outside the scene
+    Vec3 w;          // direction in which the light travels
+    Rgb light{0.0};  // power / pdf
+    // The pdf of w, per solid angle, unless the light has a single direction; if the light is infinitely far away,
+    // times the density of the point, per area perpendicular to w.
+    double pdf = 0.0;
     bool is_point = false, is_delta = false;  // the light has a position; no ray can hit it
 };
 
@@ -70,15 +71,16 @@ public:
     // Power divided by π, computed with the largest radiance: of each shape, then of the distant lights, which are the environment
     // (if there is one) and the lights without extent. For an environment, the power that enters the sphere around the scene.
     const std::vector<double>& powers() const { return powers_; }
-    // Of an emitting shape: kept, because adding it up takes as long as the shape has triangles.
+    // The area of an emitting shape, kept because adding it up takes as long as the shape has triangles.
     double area(std::uint32_t shape) const { return areas_[shape]; }
-    // `index`: of a distant light.
+    // `index` is that of a distant light.
     DistantSample sample_distant(std::size_t index, const Vec3& x, const Vec2& uv) const;
     DistantEmission send_distant(std::size_t index, const Vec2& place, const Vec2& direction) const;
     // The density with which emission towards x along w is sampled: per area perpendicular to w at x and, for an environment, per
     // solid angle of w.
     double distant_density(std::size_t index, const Vec3& x, const Vec3& w) const;
-    // Where a light without extent is; nothing for the environment and what shines from afar or along a normal.
+    // The position of a light without extent; nothing for the environment, and for lights that shine from afar or along
+    // a normal.
     std::optional<Vec3> position_of_distant(std::size_t index) const;
     // The irradiance on a surface at x that faces the light, mean of the channels.
     double distant_irradiance(std::size_t index, const Vec3& x) const;
@@ -96,7 +98,7 @@ public:
 
 private:
     void divide_lights(const Geometry& geometry);
-    // `index`: of a distant light.
+    // `index` is that of a distant light.
     const DeltaLight& delta_light(std::size_t index) const { return lights_.delta[index - (lights_.environment ? 1 : 0)]; }
 
     Lights lights_;

@@ -21,7 +21,8 @@ namespace neumann {
 
 class EnvironmentMap {
 public:
-    // `image`: finite, not negative, at least 2×3. `to_world`: rotations and reflections, to rounding.
+    // `image` must be finite, not negative, and at least 2×3. `to_world` must consist of rotations and reflections, up
+    // to rounding.
     EnvironmentMap(Image image, double scale, const Mat4& to_world);
 
     Rgb radiance(const Vec3& w) const;
@@ -39,7 +40,7 @@ private:
         double right, down;
     };
     struct Quadratic;
-    // Without the scale.
+    // These tables do not include the scale.
     struct Tables {
         Image image;
         // Luminance added up along each row by the trapezoidal rule, from the middle of its first pixel on: width + 1 numbers a
@@ -49,7 +50,7 @@ private:
         std::vector<double> sine;       // sinθ of each row
 
         double along(int y, int x) const;
-        // At column x of the row that is `down` of the way from row y to the next.
+        // The luminance added up to column x, in the row that is `down` of the way from row y to the next.
         double along(const Place& p, int x) const;
         Quadratic between_rows(int y) const;
     };

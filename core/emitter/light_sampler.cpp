@@ -12,7 +12,7 @@ namespace neumann {
 
 namespace {
 
-// Of more parts few are sampled often.
+// If there are more parts, few of them are sampled often.
 constexpr std::size_t most_kept_places = 4096;
 
 // Limits the probability of the light with this index to 1/2 if there are others, because BSDF sampling finds an environment
@@ -42,7 +42,8 @@ Vec3 center_of(const Disk& disk) { return disk.center; }
 Vec3 center_of(const Cylinder& cylinder) { return cylinder.center(); }
 Vec3 center_of(const MeshInstance& instance) { return instance.bounds().center(); }
 
-// Of a point in all directions, and of a round body: the irradiance at distance 1 in its power divided by π.
+// The irradiance at distance 1 of a point that shines in all directions, or of a round body, over its power divided by
+// π.
 constexpr double of_all_sides = 0.25;
 
 }  // namespace
@@ -240,7 +241,7 @@ std::array<Vec3, 3> LightSampler::corners(const Part& part, const Vec3& x) const
     return {mesh.vertices[t[0]] - x, mesh.vertices[t[1]] - x, mesh.vertices[t[2]] - x};
 }
 
-// Closer to its middle than twice the radius of a ball around it.
+// Whether x is closer to the part's middle than twice the radius of a ball around the part.
 bool LightSampler::is_near(const Part& part, const Vec3& x) const {
     if (!std::holds_alternative<TriangleMesh>(geometry_->shapes()[part.shape])) return false;
     constexpr double times = 2.0;
@@ -256,10 +257,10 @@ bool LightSampler::is_near(const Part& part, const Vec3& x) const {
     return glm::dot(middle, middle) < times * times * radius2;
 }
 
-// By more than rounding: from its own plane a part is seen edge-on, and what its corners' last digits say is nothing or half of the
-// sky.
+// Whether a part is seen from the front by more than rounding: from its own plane it is seen edge-on, and by the last
+// digits of its corners it covers nothing or half of the sky.
 bool LightSampler::is_seen_from_front(const Part& part, const Vec3& x) const {
-    // `corner` is seen from x.
+    // `corner` is relative to x.
     const auto in_front = [&](const Vec3& corner, const Vec3& a, const Vec3& b) {
         constexpr double places = 4.0;  // x and the corners come from coordinates that were turned and moved, perhaps several times
         const Vec3 n = glm::cross(a, b);
@@ -314,7 +315,7 @@ std::optional<ProjectedPolygon> LightSampler::projected(const Part& part, const 
     return polygon;
 }
 
-// For round shapes this is an estimate, positive wherever they may be seen.
+// The contribution of round shapes is an estimate, positive wherever they may be seen.
 double LightSampler::contribution(const Part& part, const Vec3& x) const {
     const double radiance = emitters_->powers()[part.shape] / emitters_->area(part.shape);
     return std::visit(

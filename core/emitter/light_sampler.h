@@ -17,12 +17,12 @@ struct LightSample {
     Vec3 w;              // direction towards it
     Rgb weight{0.0};     // unoccluded radiance / pdf
     double pdf = 0.0;    // of w, per solid angle, or delta_pdf if the light has no extent
-    // For a distant light: its index, and the probability with which a sample chooses it.
+    // The index of a distant light, and the probability with which a light sample chooses it.
     std::size_t distant = 0;
     double probability = 0.0;
 };
 
-// A point on a light, whatever it is a sample for. `density`: per area.
+// A point on a light that is sampled without regard to a receiver. `density` is per area.
 struct EvenPoint {
     SurfacePoint point;
     const Rgb& radiance;
@@ -31,16 +31,18 @@ struct EvenPoint {
 
 // How lights are chosen.
 enum class LightChoice {
-    mixed,         // half by power, half uniformly; the environment with probability 1/2 at most if there are other lights
-    uniform,       // all with equal probability
-    power,         // in proportion to power, computed with the largest radiance
-    contribution,  // in proportion to the unoccluded contribution to the point, radiance times solid angle; takes time linear in
-                   // the number of parts of lights
-    tree,          // about in proportion to that, by bounds of groups of lights; takes time logarithmic in their number
-    all            // every light once
+    mixed,    // half by power, half uniformly; the environment with probability 1/2 at most if there are other lights
+    uniform,  // all with equal probability
+    power,    // in proportion to power, computed with the largest radiance
+    // in proportion to the unoccluded contribution to the point, radiance times solid angle; takes time linear in the
+    // number of parts of lights
+    contribution,
+    // about as `contribution`, by bounds of groups of lights; takes time logarithmic in the number of parts
+    tree,
+    all  // every light once
 };
 
-// How a light is sampled. Round shapes, and what is seen too small, are sampled by area whatever this says.
+// How a point on a light is sampled. Round shapes, and parts that are seen small, are always sampled by area.
 enum class LightPlace {
     area,            // uniformly
     solid_angle,     // uniformly in solid angle
@@ -48,10 +50,10 @@ enum class LightPlace {
     near_projected,  // as `projected` from nearby, where the variance of points may be infinite, and by area from afar
 };
 
-// Where light is wanted.
+// A point for which light is sampled.
 struct Receiver {
     Vec3 position;
-    Vec3 normal{0.0};  // of the surface, on the side that receives light; 0 if both do
+    Vec3 normal{0.0};  // of the surface, on the side that receives light; 0 if both sides do
 
     Receiver() = default;
     Receiver(const Vec3& position, const Vec3& normal = Vec3(0.0)) : position(position), normal(normal) {}
@@ -66,11 +68,11 @@ public:
 
     // Whether there is no light to sample.
     bool empty() const { return table_.empty(); }
-    // Number of samples per point; their contributions add up.
+    // Number of light samples per point; their contributions add up.
     std::size_t asks() const { return choice_ == LightChoice::all ? table_.lights().size() : 1; }
 
-    // Samples light for the receiver x: the first number chooses the light and is then reused, with the second, for the point on
-    // it. The density is that of pdf().
+    // Samples light for the receiver x: the first number chooses the light and is then reused, with the second, for the
+    // point on it. The density is that of pdf(). `ask` is the number of the sample, below asks().
     LightSample sample(const Receiver& x, const Vec2& uv, std::size_t ask = 0) const {
         if (empty()) return {};
         if (choice_ == LightChoice::contribution) return sample_by_contribution(x, uv);
@@ -79,7 +81,7 @@ public:
             choice_ == LightChoice::all ? table_.choose_of(table_.lights()[ask], uv.x) : table_.choose(uv.x);
         return sample_chosen(chosen, x, uv.y);
     }
-    // Whether samples are points that do not depend on x, on surfaces that shine evenly; and such a point.
+    // Whether light samples are points that do not depend on x, on surfaces that shine evenly; and such a point.
     bool finds_even_points() const {
         return !empty() && choice_ != LightChoice::all && !depends_on_place() && place_ == LightPlace::area &&
                table_.size() == table_.parts().size() && emitters_->shapes_shine_evenly();
@@ -111,7 +113,7 @@ private:
         return glm::dot(d, d) / std::abs(glm::dot(normal, w));
     }
 
-    // `part`: its index in the table.
+    // `part` is its index in the table.
     LightSample on_part(std::size_t part, double density, const Receiver& x, const Vec2& uv) const {
         const bool as_seen =
             place_ == LightPlace::near_projected ? is_near(table_.parts()[part], x.position) : place_ != LightPlace::area;
@@ -122,7 +124,7 @@ private:
         const Part& p = table_.parts()[part];
         return places_.empty() ? geometry_->place(p.shape, p.primitive) : places_[part];
     }
-    // Of the second triangle of a rectangle.
+    // The place of the second triangle of a rectangle.
     Geometry::Place second_place_of(std::size_t part) const {
         const Part& p = table_.parts()[part];
         return places_.empty() ? geometry_->place(p.shape, p.primitive + 1) : second_places_[part];
@@ -172,10 +174,10 @@ private:
     // Cumulative contributions of all parts and distant lights.
     std::vector<double> contributions(const Vec3& x) const;
     LightTree make_tree();
-    // What the tree and the lights that are everywhere bring, in this order, cumulative.
+    // The cumulative importances of the tree and of the lights that are everywhere, in this order.
     std::vector<double> importances(const Receiver& x) const;
     std::array<Vec3, 3> corners(const Part& part, const Vec3& x) const;
-    // If a part is sampled by projected solid angle.
+    // The polygon of a part that is sampled by projected solid angle; nothing for others.
     std::optional<ProjectedPolygon> projected(const Part& part, const Receiver& x) const;
 
     const Geometry* geometry_;
@@ -183,10 +185,10 @@ private:
     LightChoice choice_;
     LightPlace place_;
     LightTable table_;
-    LightTree tree_;                              // of the table's entries that have a place
-    std::vector<std::size_t> everywhere_;         // the others: of the table
-    std::vector<Geometry::Place> places_;         // of the table's parts, unless they are many
-    std::vector<Geometry::Place> second_places_;  // of the second triangles of its rectangles
+    LightTree tree_;                              // over the table's entries that have a place
+    std::vector<std::size_t> everywhere_;         // the table's other entries
+    std::vector<Geometry::Place> places_;         // of the table's parts, unless there are many
+    std::vector<Geometry::Place> second_places_;  // of the second triangles of the table's rectangles
     std::vector<double> density_of_shape_;        // density of a sample, per area
 };
 

@@ -18,11 +18,11 @@ public:
         std::uint32_t shape, primitive, rectangle = no_rectangle;
         bool is_rectangle() const { return rectangle != no_rectangle; }
     };
-    // A light's parts.
+    // The parts of one light.
     struct Range {
         std::size_t first, end;
     };
-    // A chosen part or distant light. `left`: a random number that is still uniform in [0, 1), for the point on it.
+    // A chosen part or distant light. `left` is a random number that is still uniform in [0, 1), for the point on it.
     struct Choice {
         std::size_t index;
         double probability, left;
@@ -30,8 +30,8 @@ public:
 
     enum class Rectangles { as_triangles, whole };
 
-    // `share`: the probability of each entry of Emitters::powers(). The table is empty if all are 0. Keeps a reference to the
-    // geometry.
+    // `share` holds the probability of each entry of Emitters::powers(). The table is empty if all are 0. Keeps a
+    // reference to the geometry.
     LightTable(const Geometry& geometry, const Emitters& emitters, const std::vector<double>& share, Rectangles rectangles);
 
     bool empty() const { return cumulative_.empty(); }
@@ -46,7 +46,7 @@ public:
 
     // The part on which a point of an emitting surface lies.
     Part part_at(const SurfacePoint& y) const;
-    // Of a part of the table.
+    // The index of a part in the table.
     std::size_t index_of(const Part& part) const;
     double area(const Part& part) const;
     const Rectangle& rectangle(const Part& part) const { return rectangles_[part.rectangle]; }
@@ -60,7 +60,8 @@ public:
 
 private:
     Choice choose(double u, std::size_t first, std::size_t end) const {
-        // Of few entries all are compared: which one is found cannot be predicted, and a search branches by that.
+        // If there are few entries, all are compared: a search branches by which one is found, and that cannot be
+        // predicted.
         constexpr std::size_t few = 8;
         const double* const sums = cumulative_.data();
         std::size_t found = first;
@@ -77,7 +78,7 @@ private:
     std::vector<Range> lights_;
     std::vector<double> cumulative_;  // cumulative probabilities of parts_, then of the distant lights of Emitters
     std::vector<Rectangle> rectangles_;
-    std::vector<std::vector<Part>> rectangular_;  // by shape and primitive, of shapes with rectangles
+    std::vector<std::vector<Part>> rectangular_;  // by shape and primitive, for shapes with rectangles
 };
 
 }  // namespace neumann

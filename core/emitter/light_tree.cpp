@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::uint32_t no_leaf = 0xffffffffu;
 
-// A cone of directions, its half angle in radians; π: all.
+// A cone of directions with its half angle in radians; π stands for all directions.
 struct Cone {
     Vec3 axis;
     double angle;
@@ -26,7 +26,7 @@ Cone around_both(const Cone& a, const Cone& b) {
     const double angle = 0.5 * (a.angle + between + b.angle);
     const Vec3 across = b.axis - a.axis * glm::dot(a.axis, b.axis);
     const double length = glm::length(across);
-    // Of opposite ones the plane in which to turn is rounding alone.
+    // For opposite axes the plane in which to turn is rounding alone.
     constexpr double opposite = 1e-6;
     if (angle >= pi || !(length > opposite)) return {a.axis, pi};
     const double turn = angle - a.angle;
@@ -44,7 +44,7 @@ std::array<float, 3> as_floats(const Vec3& v) {
     return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
 
-// Of the lights below a node.
+// The bounds of the lights below a node.
 struct Made {
     Bounds bounds;
     Cone cone;
@@ -80,7 +80,7 @@ struct LightTree::Builder {
             made.all_sides = first.all_sides || second.all_sides;
         }
         Node& node = nodes[own];
-        // Rounded to floats, the sphere around the box still holds it, and the cone its normals.
+        // The sphere around the box must still hold it when rounded to floats, and the cone its normals.
         node.center = as_floats(made.bounds.center());
         const Vec3 center = as_vec3(node.center);
         const double far = glm::length(glm::max(glm::abs(center - made.bounds.low), glm::abs(made.bounds.high - center)));
@@ -92,7 +92,7 @@ struct LightTree::Builder {
         return made;
     }
 
-    // Across the widest axis of their centres; where those are in one place, anywhere.
+    // Splits across the widest axis of the lights' centres, or anywhere if these are in one place.
     std::size_t split(std::span<std::uint32_t> some) const {
         Bounds centers;
         for (const std::uint32_t light : some) centers.add(lights[light].bounds.center());

@@ -22,7 +22,7 @@ class LightTree {
 public:
     struct Light {
         Bounds bounds;
-        double power = 0.0;  // irradiance on what faces it from afar, times the square of the distance
+        double power = 0.0;  // irradiance on a surface that faces it from afar, times the square of the distance
         Vec3 axis{0.0, 0.0, 1.0};
         bool has_normal = false;  // shines on the side of `axis` alone, with the cosine
     };
@@ -33,23 +33,23 @@ public:
     };
 
     LightTree() = default;
-    // Those without power are never chosen.
+    // Lights without power are never chosen.
     explicit LightTree(const std::vector<Light>& lights);
 
-    // How much all of them may bring to x; `normal` 0: to both sides. Irradiance.
+    // The irradiance that all lights together may bring to x; if `normal` is 0, to both sides.
     double importance(const Vec3& x, const Vec3& normal) const { return nodes_.empty() ? 0.0 : importance(nodes_[0], x, normal); }
-    // Nothing if none can be seen.
+    // Returns nothing if no light can be seen.
     std::optional<Choice> choose(const Vec3& x, const Vec3& normal, double u) const;
     double probability(std::uint32_t light, const Vec3& x, const Vec3& normal) const;
 
 private:
-    // Depth first: the first child follows its parent.
+    // Nodes are in depth-first order: the first child follows its parent.
     struct Node {
         std::array<float, 3> center{}, axis{};
         float radius = 0.0f, power = 0.0f;
-        float cosine = 1.0f;  // of the largest angle of a normal with the axis; below −1: lights of all sides
+        float cosine = 1.0f;  // of the largest angle between a normal and the axis; below −1: lights of all sides
         std::uint32_t parent = 0;
-        std::uint32_t second = 0;  // child; 0: a leaf, of `light`
+        std::uint32_t second = 0;  // index of the second child; 0: a leaf, of `light`
         std::uint32_t light = 0;
     };
     struct Builder;
@@ -57,7 +57,7 @@ private:
     static double importance(const Node& node, const Vec3& x, const Vec3& normal);
 
     std::vector<Node> nodes_;
-    std::vector<std::uint32_t> leaves_;  // by light
+    std::vector<std::uint32_t> leaves_;  // node of each light
 };
 
 }  // namespace neumann

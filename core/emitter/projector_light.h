@@ -9,7 +9,7 @@ namespace neumann {
 
 class ProjectorLight {
 public:
-    // `half_width`: tan of half the angle across the picture. `to_world`: as a camera's, without scale.
+    // `half_width` is tan of half the angle across the picture. `to_world` is as a camera's, without scale.
     ProjectorLight(const Mat4& to_world, Slide slide, double scale, double half_width);
 
     Beam beam(const Vec3& at, const Surroundings&) const;

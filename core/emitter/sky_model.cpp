@@ -21,7 +21,7 @@ double quintic(double x, const Points& p) {
     return sum;
 }
 
-// Without changing the processor's rounding: bounds hold up to that.
+// The processor's rounding is not changed, so bounds hold up to that.
 using Interval =
     boost::numeric::interval<double,
                              boost::numeric::interval_lib::policies<boost::numeric::interval_lib::rounded_transc_exact<double>,

@@ -21,19 +21,20 @@ public:
 
     // Linear sRGB, W·m⁻²·sr⁻¹·nm⁻¹, averaged as radiance_to_rgb() does; for cosθ ≥ 0. What is outside of sRGB is cut to it.
     Rgb radiance(double cos_theta, double cos_gamma) const;
-    // An upper bound of it, by intervals of 1°.
+    // An upper bound of radiance(), by intervals of 1°.
     Rgb largest() const;
 
 private:
     struct Coefficients {
         double A, B, C, D, E, F, G, I, H, M;
     };
-    using Channels = std::array<Coefficients, 3>;  // of XYZ
+    using Channels = std::array<Coefficients, 3>;  // for each of X, Y, Z
     template <class Number>
     static Number radiance(const Coefficients& k, const Number& cos_theta, const Number& gamma, const Number& cos_gamma);
 
     double elevation_;
-    // One for each channel of sRGB, or a single one if the albedo is grey: a channel depends on the albedo in its own wavelengths.
+    // There is one for each channel of sRGB, or a single one if the albedo is grey: a channel depends on the albedo in
+    // its own wavelengths.
     std::vector<Channels> of_albedo_;
 };
 

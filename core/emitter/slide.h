@@ -10,7 +10,8 @@ namespace neumann {
 
 class Slide {
 public:
-    // `f`: not negative. `width` and `height`: in pixels; they give the aspect ratio, and the mean is over the pixels' centres.
+    // `f` must not be negative. `width` and `height` are in pixels; they give the aspect ratio, and the mean is over
+    // the pixels' centres.
     Slide(std::function<Rgb(const Vec2& uv)> f, int width, int height, bool is_grey);
     explicit Slide(const Rgb& constant);
 

@@ -12,11 +12,11 @@ namespace neumann {
 class SpotLight {
 public:
     enum class Edge {
-        linear,  // in the angle, as Mitsuba's
-        smooth   // 3 x² − 2 x³, x linear in the cosine, as pbrt's
+        linear,  // in the angle, as in Mitsuba
+        smooth   // 3 x² − 2 x³, x linear in the cosine, as in pbrt
     };
 
-    // Angles from the axis, radians, 0 ≤ beam_width ≤ cutoff; below π/2 with a slide.
+    // Angles are from the axis, in radians: 0 ≤ beam_width ≤ cutoff, and below π/2 with a slide.
     SpotLight(const Mat4& to_world, const Rgb& intensity, double cutoff, double beam_width, std::optional<Slide> slide = {},
               Edge edge = Edge::linear);
 

@@ -15,7 +15,7 @@ constexpr double above_the_atmosphere[] = {16559.0, 16233.7, 21127.5, 25888.2, 2
                                            25355.9, 25134.2, 24631.5, 24173.2, 23685.3, 23212.1, 22827.7, 22339.8, 21970.2, 21526.7,
                                            21097.9, 20728.3, 20240.4, 19870.8, 19427.2, 19072.4, 18628.9, 18259.2};
 
-// Absorption, linear between wavelengths.
+// The absorption is linear between wavelengths.
 struct Line {
     double wavelength, k;
 };
@@ -42,12 +42,13 @@ double absorption(const Line (&lines)[size], double wavelength) {
 SpectrumTable sun_spectrum(double turbidity, double elevation) {
     const double beta = 0.04608365822050 * turbidity - 0.04586025928522;
     const double zenith_angle = 90.0 - elevation * 180.0 / pi;
-    // Relative optical mass of the air (Kasten).
+    // The relative optical mass of the air (Kasten).
     const double m = 1.0 / (std::sin(elevation) + 0.15 * std::pow(93.885 - zenith_angle, -1.253));
     constexpr double ozone_depth = 0.35, water_depth = 2.0;  // cm
 
     SpectrumTable spectrum;
-    // Every 5 nm, as the tables of the colour-matching functions. Mixed gases absorb above 759 nm only.
+    // The spectrum is sampled every 5 nm, as the tables of the colour-matching functions are. Mixed gases absorb above
+    // 759 nm only.
     for (int i = 0; i <= 74; ++i) {
         const double wavelength = 380.0 + 5.0 * i, micrometres = wavelength / 1000.0;
         const double light = 0.5 * (above_the_atmosphere[i / 2] + above_the_atmosphere[(i + 1) / 2]);

@@ -10,7 +10,7 @@ namespace neumann {
 
 namespace {
 
-// Columns by the azimuth from the sun, rows by the angle from the zenith; the horizon is a row.
+// Columns are by the azimuth from the sun, rows by the angle from the zenith; the horizon is a row.
 EnvironmentMap map_of(const SkyModel& sky, const Vec3& up, const Vec3& towards_sun) {
     constexpr int width = 360, height = 181, horizon = height / 2;
     const double sin_elevation = glm::dot(up, towards_sun),
@@ -44,7 +44,7 @@ SunSky::SunSky(const Vec3& up, const Vec3& towards_sun, const SkyModel& sky, dou
       largest_(sky.largest() * sky_scale + sun) {
     const double of_sky = map_.brightness() * sky_scale, of_sun = luminance(sun) * solid_angle_ * 0.25 * inv_pi;
     brightness_ = of_sky + of_sun;
-    // As among other lights, half by power and half evenly: in the sun's shadow only the sky gives light.
+    // The sun is chosen half by power and half evenly, as lights are: in its shadow only the sky gives light.
     sun_share_ = of_sun == 0.0 ? 0.0 : of_sky == 0.0 ? 1.0 : 0.5 * (0.5 + of_sun / brightness_);
 }
 

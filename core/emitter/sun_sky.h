@@ -20,7 +20,7 @@ public:
     Vec3 sample(const Vec2& u) const;
     double pdf(const Vec3& w) const;
     const Rgb& largest() const { return largest_; }
-    // The mean luminance, with the sky's by the map.
+    // The mean luminance; that of the sky is taken from the map.
     double brightness() const { return brightness_; }
     bool is_grey() const { return false; }
 
@@ -34,7 +34,7 @@ private:
     Rgb sun_;
     double cos_radius_, solid_angle_;
     EnvironmentMap map_;
-    double sun_share_;  // of directions
+    double sun_share_;  // the sun's share of the directions
     Rgb largest_;
     double brightness_;
 };
