@@ -10,7 +10,7 @@ namespace {
 
 // Points away from edges and diagonals, where rays could hit neighbours.
 constexpr Vec2 places[] = {Vec2(0.5), Vec2(0.21, 0.34), Vec2(0.72, 0.13), Vec2(0.37, 0.81)};
-constexpr double looks_from = 4.0;         // in errors of the point
+constexpr double looks_from = 4.0;         // in units of the point's error
 constexpr std::size_t many = 100'000;      // with more primitives, only one point of each is tested
 constexpr std::uint32_t of_instance = 64;  // about as many triangles of an instance are tested
 constexpr double boxes_at_once = 64.0;
@@ -20,8 +20,8 @@ double area_of_box(const Bounds& box) {
     return d.x * d.y + d.y * d.z + d.z * d.x;
 }
 
-// How many boxes of triangles a ray through the mesh meets about, which is what it takes time for: a few in a smooth mesh; in a fan
-// of needles, or where all lie in one place, part of all there are.
+// About the number of triangles' boxes that a ray through the mesh meets, which the time depends on: a few in a smooth
+// mesh; a part of all, in a fan of needles or if all triangles lie in one place.
 double boxes_met(const TriangleMesh& mesh) {
     Bounds all;
     double sum = 0.0;
@@ -33,8 +33,8 @@ double boxes_met(const TriangleMesh& mesh) {
     return mesh.triangles.empty() ? 0.0 : sum / area_of_box(all);
 }
 
-// Of a shape's faces each so manieth is looked at: all of them would take time with the square of their number, where rays meet
-// many.
+// Every how many faces of a shape one is tested: if rays meet many faces, testing all of them would take time with the
+// square of their number.
 std::uint32_t step(const Shape& shape) {
     if (const auto* instance = std::get_if<MeshInstance>(&shape))
         return static_cast<std::uint32_t>(instance->mesh().triangles.size()) / of_instance + 1;
@@ -42,7 +42,8 @@ std::uint32_t step(const Shape& shape) {
     return mesh ? static_cast<std::uint32_t>(boxes_met(*mesh) / boxes_at_once) + 1 : 1;
 }
 
-// Of some faces of a shape: how many others cover, and the first such shape of another material that faces the same way.
+// How many of some faces of a shape are covered by others, and the first such shape of another material that faces the
+// same way.
 struct Covered {
     std::size_t faces = 0;
     std::optional<std::uint32_t> unlike;

@@ -17,8 +17,8 @@ struct CoincidentSurfaces {
     std::optional<std::pair<std::uint32_t, std::uint32_t>> first_unlike;
 };
 
-// Casts rays from right in front of a few points of each triangle or round shape. Which of two coincident surfaces such a ray hits
-// is arbitrary, so a single pair may be missed. `light_of_shape`: as Lights::of_shape.
+// Casts rays from right in front of a few points of each triangle or round shape. Which of two coincident surfaces such
+// a ray hits is arbitrary, so a single pair may be missed. `light_of_shape` is as Lights::of_shape.
 CoincidentSurfaces coincident_surfaces(const Geometry& geometry, const Materials& materials,
                                        const std::vector<int>& light_of_shape);
 

@@ -1,4 +1,4 @@
-// Whether materials turn normals somewhere: normal and bump maps.
+// Whether materials turn normals somewhere, by normal or bump maps.
 #pragma once
 
 #include "core/scene/scene.h"

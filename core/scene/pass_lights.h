@@ -10,9 +10,9 @@ struct Untold {
     void operator()(const SurfacePoint& /*light*/, const SurfacePoint& /*beyond*/) const {}
 };
 
-// Moves x, the hit of a ray along `direction`, to the first hit that is not on a light. Returns false if there is none. T has
-// first_hits() like Geometry. Adds the number of rays cast to `rays`, and calls tell(light, beyond) for each: the point on the
-// light that it leaves, and the next hit, which is at infinity if there is none.
+// Moves x, the hit of a ray along `direction`, to the first hit that is not on a light. Returns false if there is none.
+// T has first_hits() like Geometry. Adds the number of rays cast to `rays`, and calls tell(light, beyond) for each ray
+// with the point on the light that it leaves and its next hit, which is at infinity if there is none.
 template <class Transport, class Tell = Untold>
 bool pass_lights(const Emitters& emitters, const Transport& T, const Vec3& direction, SurfacePoint& x, std::uint64_t& rays,
                  const Tell& tell = {}) {

@@ -1,4 +1,4 @@
-// Where a side of a surface receives light.
+// The receiver of light that a side of a surface is.
 #pragma once
 
 #include "core/emitter/light_sampler.h"

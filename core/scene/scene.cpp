@@ -11,14 +11,14 @@ namespace neumann {
 
 namespace {
 
-// " (bsdf 'principled' of shape 'obj', room.xml:7:5)".
+// A text such as " (bsdf 'principled' of shape 'obj', room.xml:7:5)".
 std::string where(const std::vector<Origin>& origins, std::uint32_t shape) {
     if (shape >= origins.size()) return "";
     const Origin& origin = origins[shape];
     return fmt::format(" ({} of {}, {})", origin.bsdf, origin.shape, to_string(origin.place));
 }
 
-// "shape 'obj' (room.xml:7:5)".
+// A text such as "shape 'obj' (room.xml:7:5)".
 std::string name(const std::vector<Origin>& origins, std::uint32_t shape) {
     if (shape >= origins.size()) return fmt::format("shape {}", shape);
     return fmt::format("{} ({})", origins[shape].shape, to_string(origins[shape].place));
@@ -34,7 +34,7 @@ constexpr double largest_scene = 1e70, smallest_scene = 1e-70;
 // The largest distance of a ray's origin that Embree accepts, in units of the scene's size.
 constexpr double farthest_camera = 1e15;
 
-// ", for shape 'obj' (room.xml:7:5) has a vertex at 0 1e+39 0".
+// A text such as ", for shape 'obj' (room.xml:7:5) has a vertex at 0 1e+39 0".
 std::string blame(const Geometry& geometry, const std::vector<Origin>& origins, std::uint32_t shape) {
     const std::optional<FarVertex> far = farthest_vertex(geometry, shape);
     if (!far) return "";
@@ -68,7 +68,7 @@ void expect_visible(const Geometry& geometry, const std::vector<Origin>& origins
 
 void expect_near(const Geometry& geometry, const SensorOptions& camera, const std::vector<Origin>& origins) {
     for (const SensorOptions& sensor : camera.sensors) expect_near(geometry, sensor, origins);
-    if (camera.is_even() || camera.kind == SensorOptions::Kind::batch) return;  // these are as near as they need to be
+    if (camera.is_even() || camera.kind == SensorOptions::Kind::batch) return;  // no such limit for these
     const double away = glm::length(geometry.caster().to_embree(Vec3(camera.to_world[3]))),
                  clip = camera.near_clip * geometry.caster().scale();
     if (geometry.radius() == 0.0 || std::max(away, clip) <= farthest_camera) return;
@@ -79,11 +79,11 @@ void expect_near(const Geometry& geometry, const SensorOptions& camera, const st
     throw origins.empty() ? InputError(what) : InputError(Location{origins.front().place.file}, what);
 }
 
-// Where nothing is between the planes, pictures are dark without a sample that tells why.
+// If nothing is between the planes, pictures are dark and no sample shows why.
 void warn_of_clipping(const Geometry& geometry, const SensorOptions& camera, Warnings& warnings) {
     for (const SensorOptions& sensor : camera.sensors) warn_of_clipping(geometry, sensor, warnings);
     if (camera.is_even() || camera.kind == SensorOptions::Kind::batch || geometry.shapes().empty()) return;
-    // Along the view, of the sphere around all shapes.
+    // The depths of the sphere around all shapes along the view.
     const Vec3 to_centre = -geometry.caster().to_embree(Vec3(camera.to_world[3])) / geometry.caster().scale();
     const Vec3 view = Vec3(camera.to_world[2]) / length_of(Vec3(camera.to_world[2]));
     const double middle = glm::dot(to_centre, view), nearest = middle - geometry.radius(), farthest = middle + geometry.radius();
@@ -140,7 +140,7 @@ void warn_of_laws(const MeasuredLaws& laws, const std::vector<Origin>& origins, 
                     where(origins, laws.brightest), laws.reciprocity_defect, where(origins, laws.least_reciprocal)));
 }
 
-// No ray meets such lights, and a meter asks for none.
+// No ray meets such lights, and a meter takes no light samples.
 void warn_of_missed_light(const SensorOptions& camera, const Emitters& emitters, Warnings& warnings) {
     if (!emitters.has_delta_lights() || !camera.has(SensorOptions::Kind::irradiance_meter)) return;
     warnings.add(

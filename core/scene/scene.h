@@ -48,7 +48,7 @@ public:
           SceneNotes notes);
     // The same scene with other materials.
     Scene with(Materials materials) const;
-    // The same scene in the light of others; what shone on its own is dark. `lights.of_shape` may be empty.
+    // The same scene in the light of others; shapes that shone are dark. `lights.of_shape` may be empty.
     Scene with(Lights lights) const;
     // The same scene, seen on another film.
     Scene with(const Film& film) const;

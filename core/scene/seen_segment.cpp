@@ -8,7 +8,7 @@ namespace {
 
 constexpr int samples = 64, halvings = 14;  // 64 · 2¹⁴ = 2²⁰
 
-// Where `property` changes between two places, of which the first has it.
+// The place between `with` and `without` up to which `property` holds.
 template <class Property>
 double last_with(const Property& property, double with, double without) {
     for (int i = 0; i < halvings; ++i) {
@@ -25,7 +25,8 @@ std::vector<SeenPiece> seen_pieces(const Scene& scene, const Vec3& a, const Vec3
     const auto sensors = static_cast<double>(options.sensors.size());
     const SensorOptions& own = options.sensors.empty() ? options : options.sensors.at(sensor);
     if (own.is_even()) return {};
-    const Vec2 lens(options.sensors.empty() ? 0.5 : (sensor + 0.5) / sensors, 0.5);  // of a batch it chooses the sensor, too
+    // The first number also chooses the sensor of a batch.
+    const Vec2 lens(options.sensors.empty() ? 0.5 : (sensor + 0.5) / sensors, 0.5);
 
     const auto at = [&](double t) { return a + (b - a) * t; };
     const auto on_film = [&](double t) { return scene.camera.see(at(t), lens); };
