@@ -10,7 +10,7 @@ namespace neumann {
 class Beckmann {
 public:
     explicit Beckmann(double alpha) : Beckmann(Vec2(alpha)) {}
-    // Along x and along y.
+    // α along x and along y.
     explicit Beckmann(const Vec2& alpha) : alpha_(alpha), product_(alpha.x * alpha.y), ratio_(alpha.y / alpha.x) {}
 
     // D(m), as for Ggx.
@@ -25,7 +25,8 @@ public:
         constexpr double half_inv_sqrt_pi = 0.28209479177387814347;
         return 0.5 * v.z * (1.0 + std::erf(a)) + half_inv_sqrt_pi * spread * std::exp(-a * a);
     }
-    // Heitz and d'Eon, Importance Sampling Microfacet-Based BSDFs using the Distribution of Visible Normals, 2014.
+    // Samples visible normals: Heitz and d'Eon, Importance Sampling Microfacet-Based BSDFs using the Distribution of
+    // Visible Normals, 2014.
     Vec3 sample_visible(const Vec3& v, const Vec2& u) const;
     const Vec2& alpha() const { return alpha_; }
 

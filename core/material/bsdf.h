@@ -55,8 +55,9 @@ inline double pdf(const Bsdf& bsdf, const ShadingPoint& p, const Vec3& wo, const
 inline BsdfSample sample(const Bsdf& bsdf, const ShadingPoint& p, const Vec3& wo, const Vec2& u) {
     return visit_fast(bsdf, [&](const auto& b) { return b.sample(p, wo, u); });
 }
-// For paths from lights, whose ωi is given: sample() and pdf() with the directions exchanged, where that finds all ωo that light
-// goes to. The weights of delta lobes alone count: fs(ωi → ωo) |cosθo| / pdf by R's fs, with cosines about the normal that mirrors.
+// Samples ωo for paths from lights, for which ωi is given: by sample() and pdf() with the directions exchanged, if
+// these find all ωo to which light goes. Only the weights of delta lobes are used: fs(ωi → ωo) |cosθo| / pdf with R's
+// fs, the cosines about the normal that mirrors.
 inline BsdfSample sample_from_light(const Bsdf& bsdf, const ShadingPoint& p, const Vec3& wi, const Vec2& u) {
     return visit_fast(bsdf, [&](const auto& b) {
         if constexpr (requires { b.sample_from_light(p, wi, u); })
@@ -99,8 +100,8 @@ inline bool transmits(const Bsdf& bsdf) {
         },
         bsdf);
 }
-// For a boundary between two media, also as a part of the material: the refractive index beyond it divided by that on this side.
-// Otherwise 1.
+// The refractive index beyond a boundary between two media, which may be a part of the material, divided by that on
+// this side; 1 for other materials.
 inline double refractive_ratio(const Bsdf& bsdf) {
     return std::visit(
         [](const auto& b) {
@@ -111,7 +112,7 @@ inline double refractive_ratio(const Bsdf& bsdf) {
         },
         bsdf);
 }
-// Whether it is known to have delta lobes alone, so that eval() is 0.
+// Whether the material is known to have delta lobes alone, so that eval() is 0.
 inline bool is_delta_only(const Bsdf& bsdf) {
     return std::visit(
         []<class B>(const B&) {

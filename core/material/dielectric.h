@@ -23,7 +23,7 @@ public:
 
     Rgb eval(const ShadingPoint&, const Vec3&, const Vec3&) const { return Rgb(0.0); }
     double pdf(const ShadingPoint&, const Vec3&, const Vec3&) const { return 0.0; }
-    // Reflected with the probability F, which is 1 beyond the critical angle.
+    // Light is reflected with the probability F, which is 1 beyond the critical angle.
     BsdfSample sample(const ShadingPoint& p, const Vec3& wo, const Vec2& u) const {
         if (wo.z <= 0.0) return {};
         if (u.x < choice(wo)) return {Vec3(-wo.x, -wo.y, wo.z), reflectance_(p), delta_pdf};

@@ -11,8 +11,9 @@
 
 namespace neumann {
 
-// A `Glossy` has g for directions above the surface in eval(), reciprocal; in pdf() a density of ωi that is normalised over the
-// whole sphere, since a lobe may reach below the horizon; sample(), which draws from it; and the largest ∫ g cosθ dω.
+// A `Glossy` has eval(), the reciprocal g for directions above the surface; pdf(), a density of ωi that is normalised
+// over the whole sphere, since a lobe may reach below the horizon; sample(), which draws from it; and largest_albedo(),
+// the largest ∫ g cosθ dω.
 template <class Glossy>
 class DiffuseAndGlossy {
 public:

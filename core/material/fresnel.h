@@ -6,7 +6,7 @@
 
 namespace neumann {
 
-// In [0, 1] for η, k ≥ 0; cosθ > 0 is between the direction and the normal. With q = √(η² − sin²θ) = a + ib,
+// F is in [0, 1] for η, k ≥ 0; cosθ > 0 is between the direction and the normal. With q = √(η² − sin²θ) = a + ib,
 //
 //     rs = (cosθ − q) / (cosθ + q),   rp = rs (q cosθ − sin²θ) / (q cosθ + sin²θ),   F = (|rs|² + |rp|²) / 2.
 //
@@ -26,7 +26,7 @@ inline double conductor_fresnel(double cosine, double eta, double k) {
 
 class ConductorFresnel {
 public:
-    // Reflects everything.
+    // A conductor that reflects everything.
     ConductorFresnel() = default;
     ConductorFresnel(const Rgb& eta, const Rgb& k) : eta_(eta), k_(k), perfect_(eta == Rgb(0.0)) {}
 

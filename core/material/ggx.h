@@ -15,7 +15,7 @@ inline Vec3 above(const Vec3& w) { return {w.x, w.y, std::abs(w.z)}; }
 class Ggx {
 public:
     explicit Ggx(double alpha) : Ggx(Vec2(alpha)) {}
-    // Along x and along y.
+    // α along x and along y.
     explicit Ggx(const Vec2& alpha) : alpha_(alpha), product_(alpha.x * alpha.y), ratio_(alpha.y / alpha.x) {}
 
     // D(m), sr⁻¹: the area of microfacets with normal m, per solid angle and per area of the surface. The sum is accurate for small

@@ -12,7 +12,7 @@ class Gtr1 {
 public:
     explicit Gtr1(double alpha) : a2_(alpha * alpha), log_a2_(std::log(a2_)) {}
 
-    // ∫ D(m) m.z dm = 1.
+    // D(m), with ∫ D(m) m.z dm = 1.
     double density(const Vec3& m) const {
         const double sin2 = m.x * m.x + m.y * m.y;
         return (a2_ - 1.0) * inv_pi / (log_a2_ * (sin2 + a2_ * m.z * m.z));

@@ -16,7 +16,7 @@ namespace neumann {
 
 class PhongLobe {
 public:
-    // n ≥ 0, equal in all channels.
+    // `exponent` is n ≥ 0, equal in all channels.
     explicit PhongLobe(SurfaceFunction exponent) : exponent_(std::move(exponent)) {}
 
     double eval(const ShadingPoint& p, const Vec3& wo, const Vec3& wi) const {
@@ -35,7 +35,7 @@ public:
     double largest_albedo() const { return 1.0; }
     bool is_constant() const { return exponent_.is_constant(); }
     bool is_isotropic() const { return true; }
-    // Of the Beckmann facets whose reflections spread as far: a variance of 2 α² against 1/n.
+    // The α of the Beckmann facets whose reflections spread as far: a variance of 2 α² against 1/n.
     double alpha() const { return 1.0 / std::sqrt(1.0 + 2.0 * exponent_.upper_bound().r); }
 
 private:

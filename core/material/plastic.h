@@ -29,7 +29,7 @@ public:
 
     Rgb operator()(const ShadingPoint& p) const { return of(diffuse_(p), internal_); }
     Rgb upper_bound() const { return upper_bound(internal_); }
-    // With another F̄.
+    // b for another F̄.
     Rgb operator()(const ShadingPoint& p, double internal) const { return of(diffuse_(p), internal); }
     Rgb upper_bound(double internal) const { return of(diffuse_.upper_bound(), internal); }
     // The probability of sampling the boundary if it reflects F.

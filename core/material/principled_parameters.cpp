@@ -6,7 +6,7 @@ namespace neumann {
 
 namespace {
 
-constexpr Rgb luminance_weights(0.212671, 0.715160, 0.072169);  // as Mitsuba has them
+constexpr Rgb luminance_weights(0.212671, 0.715160, 0.072169);  // as in Mitsuba
 
 struct Number {
     SurfaceFunction PrincipledParameters::*function;

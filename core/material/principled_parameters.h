@@ -37,8 +37,8 @@ struct PrincipledParameters {
     bool is_constant() const;
     bool is_isotropic() const { return anisotropic.is_constant() && anisotropic.upper_bound().r == 0.0; }
     bool is_grey() const;
-    // All combinations of the values at the ends of their ranges, between which the albedo is linear in most of them; half the
-    // roughness is included.
+    // All combinations of the values at the ends of their ranges; the albedo is linear in most of them in between. Half
+    // the roughness is included.
     std::vector<PrincipledValues> extremes() const;
 };
 

@@ -26,7 +26,7 @@ public:
     BsdfSample sample(const ShadingPoint& p, const Vec3& wo, const Vec2& u) const { return sample((*parameters_)(p), wo, u); }
     Rgb reflectance(const ShadingPoint&) const { return Rgb(1.0); }
     const PrincipledThin& white() const { return *this; }
-    // Measured.
+    // The albedo is measured.
     Rgb largest_albedo() const { return largest_albedo_; }
     bool is_constant() const { return parameters_->is_constant(); }
     bool is_lawful() const { return false; }

@@ -35,8 +35,8 @@ public:
         if (wo.z <= 0.0 || wi.z == 0.0) return Rgb(0.0);
         return scattered(p, At(*this, p, wo), wi) / std::abs(wi.z);
     }
-    // Normalised over the whole sphere. Facets may also reflect downwards and refract upwards, which is not part of fs; sample()
-    // gives such directions the weight that fs has there.
+    // The pdf is normalised over the whole sphere. Facets may also reflect downwards and refract upwards, which is not
+    // part of fs; sample() gives such directions the weight that fs has there.
     double pdf(const ShadingPoint& p, const Vec3& wo, const Vec3& wi) const {
         if (wo.z <= 0.0) return 0.0;
         const At at(*this, p, wo);
@@ -77,7 +77,7 @@ private:
         At(const RoughDielectric& bsdf, const ShadingPoint& p, const Vec3& w)
             : facets(bsdf.roughness_(p)), eta(bsdf.eta_), wo(w), seen(facets.projected_area(w)) {}
 
-        // Densities of the directions in which they reflect and refract.
+        // The densities of the directions in which the facets reflect and refract.
         double reflected(const Vec3& wi) const {
             const Vec3 h = wo + wi;
             if (h.z <= 0.0) return 0.0;

@@ -36,7 +36,7 @@ public:
         const Microfacets facets = roughness_(p);
         return eval(p, facets, transmittances_->at(facets.alpha().x), wo, wi);
     }
-    // Normalised over the whole sphere, as for a rough conductor.
+    // The pdf is normalised over the whole sphere, as for a rough conductor.
     double pdf(const ShadingPoint& p, const Vec3& wo, const Vec3& wi) const {
         const Microfacets facets = roughness_(p);
         return pdf(facets, specular_probability(transmittances_->at(facets.alpha().x), wo), wo, wi);
@@ -59,8 +59,9 @@ public:
     }
     Rgb reflectance(const ShadingPoint&) const { return Rgb(1.0); }
     const RoughPlastic& white() const { return *this; }
-    // At most s (1 − T) + b T ∫ T(μ) 2μ dμ, because facets with single scattering reflect at most 1 − T. This is linear in T, so
-    // its maximum is at the smallest or the largest T; b and the integral are those of two neighbours in the table.
+    // The albedo is at most s (1 − T) + b T ∫ T(μ) 2μ dμ, because facets with single scattering reflect at most 1 − T.
+    // This is linear in T, so its maximum is at the smallest or the largest T; b and the integral are those of two
+    // neighbours in the table.
     Rgb largest_albedo() const {
         const Rgb s = specular_.upper_bound();
         const std::vector<RoughTransmittance>& tables = transmittances_->tables();

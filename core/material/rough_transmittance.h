@@ -1,4 +1,4 @@
-// How much light enters a layer with a rough surface.
+// The light that enters a layer with a rough surface.
 #pragma once
 
 #include "core/material/roughness.h"
@@ -16,7 +16,7 @@ namespace neumann {
 // over these, 1.5% below the integral.
 class RoughTransmittance {
 public:
-    // Computed by Gauss quadrature over the visible facets.
+    // Computes both by Gauss quadrature over the visible facets.
     template <class Microfacets>
     RoughTransmittance(const Microfacets& facets, double eta);
 
@@ -41,7 +41,7 @@ private:
 // The same for all α from 0 to a largest one, interpolated linearly between some; or for one constant α alone.
 class RoughTransmittances {
 public:
-    // Of one α: a mixture of its neighbours in the table.
+    // T and F̄ for one α, a mixture of its neighbours in the table.
     class At {
     public:
         At(const RoughTransmittance& below, const RoughTransmittance& above, double share)
@@ -75,7 +75,7 @@ public:
 
 private:
     static constexpr int steps = 32;
-    // Closer where the surface is almost smooth: there T changes most, at grazing angles.
+    // The α are closer together where the surface is almost smooth, because T changes most there, at grazing angles.
     double alpha_of(int i) const { return largest_ * i * i / (steps * steps); }
 
     double largest_ = 0.0;

@@ -22,7 +22,7 @@ public:
     Microfacets operator()(const ShadingPoint& p) const { return is_constant() ? bound_ : microfacets(alpha_u_(p), alpha_v_(p)); }
     bool is_constant() const { return alpha_u_.is_constant() && alpha_v_.is_constant(); }
     bool is_isotropic() const { return is_constant() && bound_.alpha().x == bound_.alpha().y; }
-    // The smaller α of the two tangents, of the bounds over the surface.
+    // The smaller α of the two tangents, by the bounds over the surface.
     double alpha() const { return std::min(bound_.alpha().x, bound_.alpha().y); }
 
 private:

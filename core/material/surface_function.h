@@ -28,7 +28,7 @@ private:
     bool is_grey_ = false;
 };
 
-// `factor` ≥ 0.
+// `factor` must be at least 0.
 inline SurfaceFunction scaled(const SurfaceFunction& f, double factor) {
     if (f.is_constant()) return f.upper_bound() * factor;
     return {[f, factor](const ShadingPoint& p) { return f(p) * factor; }, f.upper_bound() * factor, f.is_grey()};
