@@ -14,7 +14,7 @@ namespace neumann {
 class Bitmap {
 public:
     enum class Filter { nearest, bilinear };
-    // Beyond [0, 1]².
+    // How the picture goes on beyond [0, 1]².
     enum class Wrap { repeat, mirror, clamp };
 
     // `raw`: values as they are in the file; otherwise whole numbers are decoded as sRGB.
@@ -29,7 +29,7 @@ public:
     bool is_grey() const { return is_grey_; }
     int width() const { return texels_->width; }
     int height() const { return texels_->height; }
-    // All texels.
+    // All texels, as a picture.
     Image image() const;
 
 private:

@@ -8,13 +8,13 @@
 namespace neumann {
 namespace {
 
-// IEC 61966-2-1.
+// The sRGB transfer function, IEC 61966-2-1.
 int srgb_byte(double linear) {
     const double encoded = linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
     return static_cast<int>(std::lround(255.0 * encoded));
 }
 
-// The same by a table, since the power takes longer than all else that is done with a pixel.
+// The same by a table, since the power takes longer than everything else that is done with a pixel.
 class SrgbTable {
 public:
     SrgbTable() {

@@ -1,4 +1,4 @@
-// From scene-linear radiance to the bytes that a screen shows.
+// Converts scene-linear radiance to the bytes that a screen shows.
 #pragma once
 
 #include "core/image/image.h"
@@ -17,16 +17,16 @@ struct DisplayImage {
     DisplayImage(int w, int h, std::uint8_t grey)
         : width(w), height(h), bytes(3 * static_cast<std::size_t>(w) * static_cast<std::size_t>(h), grey) {}
 
-    // Copies all of `picture` to where its top left corner is (x, y); throws std::out_of_range unless it fits.
+    // Copies `picture` so that its top left corner is at (x, y); throws std::out_of_range unless it fits.
     void paste(const DisplayImage& picture, int x, int y);
 };
 
 // Luminance of linear Rec. 709 / sRGB primaries.
 double luminance(const Rgb& c);
 
-// The factor that brings the 99th percentile of the luminance to white (1). Pixels in which an emitter is seen directly (`emission`
-// not black) and pixels that are black or not finite do not vote; where only emitters are left, they do. 1 for an all-black
-// picture. `emission` has the size of `sum`; otherwise throws std::invalid_argument.
+// The factor that brings the 99th percentile of the luminance to white (1). Pixels in which an emitter is seen directly
+// (`emission` not black) and pixels that are black or not finite do not count; if only emitters are left, they do. 1
+// for an all-black picture. `emission` has the size of `sum`; otherwise throws std::invalid_argument.
 double exposure_for(const Image& sum, const Image& emission);
 
 // Each value times `exposure`, clipped to 0..1, in the sRGB transfer function. A pixel that is not finite becomes magenta.

@@ -30,7 +30,7 @@ public:
         return (flags & 0x80U) != 0 ? std::size_t{3} << ((flags & 0x07U) + 1U) : std::size_t{0};
     }
 
-    // `fixed` bytes and the sub-blocks after them, up to and with the empty one.
+    // Takes `fixed` bytes and the sub-blocks after them, up to and including the empty one.
     std::string_view take_block(std::size_t fixed) {
         std::size_t size = fixed;
         while (peek(size) != 0) size += 1U + peek(size);

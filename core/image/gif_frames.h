@@ -7,8 +7,8 @@
 
 namespace neumann {
 
-// An endless GIF of the first frame of each of `gifs` (at least one; all of one size), each shown for `delay` hundredths of a
-// second. Throws std::invalid_argument for several sizes, and for bytes that are not a GIF.
+// An endless GIF of the first frame of each of `gifs` (at least one; all of one size), each shown for `delay`
+// hundredths of a second. Throws std::invalid_argument if sizes differ, or if bytes are not a GIF.
 std::string join_gif_frames(std::span<const std::string> gifs, int delay);
 
 }  // namespace neumann

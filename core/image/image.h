@@ -28,7 +28,8 @@ struct Image {
 struct Estimate {
     Image mean, standard_error;
     double degrees_of_freedom = 0.0;
-    Image discretisation = {};  // ≥ 0: how far the mean is estimated to be from the truth whatever the samples; empty: not at all
+    // How far the mean is estimated to be from the truth whatever the samples, ≥ 0; empty if not at all.
+    Image discretisation = {};
     bool pixels_are_independent = true;
 };
 

@@ -11,7 +11,7 @@ void round_to_floats(Image& image) {
 
 }  // namespace
 
-// A file has the errors of pixels, and beside them the spread where it differs.
+// A file holds the errors of pixels, and the spread if it differs.
 PixelEstimate as_in_file(PixelEstimate picture) {
     if (!picture.least_error.pixels.empty()) {
         Image errors = picture.pixel_errors();

@@ -5,7 +5,8 @@
 
 namespace neumann {
 
-// What read_exr() gives of encode_exr(): whoever shows this instead of the picture shows the same as who reads the file later.
+// The picture that read_exr() reads from what encode_exr() writes: a picture shown before it is written looks the same
+// as later.
 PixelEstimate as_in_file(PixelEstimate picture);
 
 }  // namespace neumann

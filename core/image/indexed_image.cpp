@@ -7,7 +7,7 @@
 namespace neumann {
 namespace {
 
-// Colours that agree in the upper bits of each channel are counted, and looked for, together.
+// Colours that agree in the upper bits of each channel are counted, and looked up, together.
 constexpr int cell_bits = 6, bits_below = 8 - cell_bits;
 constexpr std::size_t cells = std::size_t{1} << (3 * cell_bits), most_colours = 256;
 
@@ -26,7 +26,7 @@ struct Box {
     double count = 0.0;
     std::array<double, 3> mean{};
     double error = 0.0;    // Σ count |colour − mean|²
-    std::size_t axis = 0;  // of the largest part of `error`
+    std::size_t axis = 0;  // along which `error` is largest
 };
 
 Box box_of(const std::vector<Cell>& all, std::size_t begin, std::size_t end) {
@@ -71,10 +71,10 @@ std::vector<Cell> count_colours(const DisplayImage& picture) {
     return found;
 }
 
-// Finds the nearest of some colours. Each answer is for a whole cell, and kept.
+// Finds the nearest of some colours. A result is for a whole cell, and is kept.
 class NearestColour {
 public:
-    // `colours` by rising green.
+    // `colours` must be sorted by green.
     explicit NearestColour(const std::vector<Colour>& colours) : colours_(colours), found_(cells, -1) {
         int k = 0;
         for (int green = 0; green < 256; ++green) {
@@ -91,7 +91,7 @@ public:
     }
 
 private:
-    // Outwards from the same green, until green alone is further than the best.
+    // Searches outwards from the same green, until the difference in green alone exceeds the best.
     std::int16_t search(const std::array<int, 3>& wanted) const {
         int least = std::numeric_limits<int>::max(), best = 0;
         const auto try_one = [&](int k) {
@@ -132,7 +132,7 @@ std::vector<Colour> choose_colours(const DisplayImage& picture) {
         const auto cut = static_cast<std::size_t>(middle - all.begin());
         if (cut == box.begin || cut == box.end) {
             if (box.error <= 0.0) break;
-            worst->error = 0.0;  // of rounding alone
+            worst->error = 0.0;  // what is left is rounding
             continue;
         }
         *worst = box_of(all, box.begin, cut);
@@ -146,15 +146,15 @@ std::vector<Colour> choose_colours(const DisplayImage& picture) {
     return colours;
 }
 
-// Floyd and Steinberg, An adaptive algorithm for spatial greyscale, 1976; rows run to and fro. A quarter of each error is dropped:
-// where colours are few it would add up, until a pixel of a colour that is nowhere around pays for it.
+// Floyd and Steinberg, An adaptive algorithm for spatial greyscale, 1976; rows run to and fro. A quarter of each error
+// is dropped: with few colours errors would add up, until some pixel gets a colour that is nowhere around.
 IndexedImage with_few_colours(const DisplayImage& picture) {
     IndexedImage out{picture.width, picture.height, choose_colours(picture), {}};
     std::ranges::sort(out.colours, {}, [](const Colour& colour) { return colour[1]; });
     NearestColour nearest(out.colours);
     const int width = picture.width;
     out.pixels.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(picture.height));
-    using Error = std::array<int, 3>;  // in 64ths
+    using Error = std::array<int, 3>;  // in units of 1/64
     std::vector<Error> below(static_cast<std::size_t>(width) + 2);
     for (int y = 0; y < picture.height; ++y) {
         const int step = y % 2 == 0 ? 1 : -1;

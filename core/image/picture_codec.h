@@ -1,4 +1,4 @@
-// What the modules of pictures offer: the functions of image_io.h.
+// The functions of image_io.h that the modules for pictures offer.
 #pragma once
 
 #include "core/image/exr_parts.h"

@@ -28,7 +28,7 @@ public:
         if (big_endian) std::swap(bytes[0], bytes[3]), std::swap(bytes[1], bytes[2]);
         return bytes[0] | bytes[1] << 8 | bytes[2] << 16 | std::uint32_t{bytes[3]} << 24;
     }
-    // Up to a zero, or one more than OpenEXR's names may have.
+    // Reads up to a zero byte, or one byte more than OpenEXR's names may have.
     static constexpr std::size_t longest = 255;
     std::string text() {
         std::string result;
@@ -57,7 +57,7 @@ private:
     std::int64_t size_ = 0, at_ = 0;
 };
 
-// Chunks of length, type, data and check sum.
+// A PNG consists of chunks of length, type, data and check sum.
 void walk_png(PartReader& file) {
     file.skip(8);
     while (file.has(12)) {
@@ -66,8 +66,8 @@ void walk_png(PartReader& file) {
     }
 }
 
-// A header of attributes, name, type, length and data, that an empty name ends; of several parts one after another, and then no
-// more.
+// A header of OpenEXR consists of attributes, with name, type, length and data, and ends with an empty name. A file of
+// several parts has their headers one after another, and then an empty one.
 void walk_exr(PartReader& file) {
     constexpr std::uint32_t several_parts = 0x1000;
     file.skip(4);

@@ -1,5 +1,5 @@
-// Which format a picture file has, and whether its header keeps what it promises: what the libraries that read pictures do not
-// check before they ask for memory.
+// Finds the format of a picture file, and checks sizes in its header that the libraries for pictures do not check
+// before they ask for memory.
 #pragma once
 
 #include <istream>
@@ -8,13 +8,14 @@
 
 namespace neumann {
 
-// OpenImageIO's name of the format, by the first bytes, or by the file's name where there are none to tell (TGA); empty if it is
-// none of OpenEXR, PNG, JPEG, TIFF, Radiance HDR, PNM, PFM, BMP or TGA. Left to itself OpenImageIO asks all readers it has, of
-// which some abort the program over bytes that are not theirs.
+// OpenImageIO's name of the format, by the first bytes, or by the file's name if no bytes identify the format (TGA);
+// empty if it is none of OpenEXR, PNG, JPEG, TIFF, Radiance HDR, PNM, PFM, BMP or TGA. By itself OpenImageIO tries all
+// readers it has, some of which abort the program over bytes that are not theirs.
 std::string find_picture_format(std::istream& file, std::string_view name);
 
-// Throws InputError, beginning with the name, where a chunk of a PNG or an attribute of an OpenEXR file ends beyond the file:
-// libpng and OpenEXR set aside as much memory as it says it is long, up to 2 GiB, before they look whether there is so much.
+// Throws InputError, which begins with the name, if a chunk of a PNG or an attribute of an OpenEXR file ends beyond the
+// file: libpng and OpenEXR allocate as much memory as its length says, up to 2 GiB, before they check that so much is
+// there.
 void expect_parts_within_file(std::istream& file, std::string_view name, const std::string& format);
 
 }  // namespace neumann

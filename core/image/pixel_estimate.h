@@ -1,4 +1,4 @@
-// A picture whose pixels are to be believed one by one.
+// A picture with errors that hold for single pixels.
 #pragma once
 
 #include "core/image/image.h"
@@ -8,13 +8,14 @@
 namespace neumann {
 
 struct PixelEstimate : Estimate {
-    Image least_error = {};  // ≥ 0: what few samples leave open in a pixel however well they agree; empty: nothing
+    // The error that few samples leave open in a pixel however well they agree, ≥ 0; empty if there is none.
+    Image least_error = {};
 
     PixelEstimate() = default;
     PixelEstimate(Estimate estimate) : Estimate(std::move(estimate)) {}
 
-    // The standard errors by which a pixel's interval holds the truth: of the samples' spread, and not below `least_error`. Means
-    // over pixels have the spread alone, `standard_error`.
+    // The standard errors for the intervals of single pixels: those of the samples' spread, and not below
+    // `least_error`. Means over pixels use the spread alone, `standard_error`.
     Image pixel_errors() const {
         Image errors = standard_error;
         for (std::size_t i = 0; i < errors.pixels.size() && i < least_error.pixels.size(); ++i)

@@ -8,7 +8,7 @@
 namespace neumann {
 namespace {
 
-// One new pixel along an axis covers the old ones from `first` on, each by its weight; the weights add up to 1.
+// The old pixels that a new one covers along an axis, from `first` on, with weights that add up to 1.
 struct Cover {
     int first = 0;
     std::vector<double> weights;
@@ -17,7 +17,7 @@ struct Cover {
 std::vector<Cover> covers(int from, int to) {
     std::vector<Cover> out(static_cast<std::size_t>(to));
     for (int i = 0; i < to; ++i) {
-        // In units of 1/to old pixels, where all edges are whole numbers.
+        // Positions are in units of 1/to old pixels, so that all edges are whole numbers.
         const long begin = static_cast<long>(i) * from, end = begin + from;
         Cover& cover = out[static_cast<std::size_t>(i)];
         cover.first = static_cast<int>(begin / to);

@@ -1,4 +1,4 @@
-// Pictures at another size. Our own: Python shrinks pictures without loading the module that knows OpenImageIO.
+// Resizes pictures without OpenImageIO, so that Python need not load its module to shrink pictures.
 #pragma once
 
 #include "core/image/display.h"
@@ -11,7 +11,7 @@ namespace neumann {
 // size.
 Image resized(const Image& picture, int width, int height);
 
-// Each pixel `factor` times as wide and as high, at least once.
+// Repeats each pixel `factor` times along both axes, at least once.
 DisplayImage enlarged(const DisplayImage& picture, int factor);
 
 }  // namespace neumann

@@ -9,10 +9,10 @@ namespace neumann {
 
 struct Texels {
     int width = 0, height = 0, channels = 0;
-    // Of these one is empty: bytes stay bytes, other whole numbers become values from 0 to 1.
+    // One of these is empty: bytes stay bytes, and other whole numbers become values from 0 to 1.
     std::vector<std::uint8_t> bytes = {};
     std::vector<float> values = {};
-    bool is_encoded = false;  // whole numbers in the file, which are sRGB unless they are told to be raw
+    bool is_encoded = false;  // whole numbers in the file, which are sRGB unless declared raw
 
     std::size_t index(int x, int y) const {
         return (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)) *

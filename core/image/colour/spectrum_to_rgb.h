@@ -7,7 +7,7 @@
 
 namespace neumann {
 
-// Piecewise linear, zero outside; wavelengths in nm, increasing, at least two.
+// Linear between the wavelengths, and zero outside. Wavelengths are in nm, increasing, and at least two.
 struct SpectrumTable {
     std::vector<double> wavelengths, values;
 };

@@ -1,12 +1,13 @@
-// All that knows OpenImageIO, which reads pictures for core/image/image_io.h: a module that is loaded when a picture is first read.
+// Reads pictures for core/image/image_io.h. This module is the only code that knows OpenImageIO, and is loaded when a
+// picture is first read.
 #include "core/image/picture_codec.h"
 
 #include "core/base/error.h"
 #include "core/base/memory.h"
 #include "core/image/picture_format.h"
 
-// Before OpenImageIO, which makes {fmt} part of whatever includes it: everybody else's calls of {fmt} would end here then, and
-// bring OpenImageIO into programs that have no use for it.
+// {fmt} comes before OpenImageIO, which makes {fmt} part of whatever includes it after: calls of {fmt} by others would
+// then end here, and bring OpenImageIO into programs that have no use for it.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -47,7 +48,7 @@ void get_attributes(const OIIO::ImageSpec& spec, Attributes& attributes) {
     }
 }
 
-// Where the three channels stand in the file, or nothing unless all are there.
+// The places of the three channels in the file, or nothing unless all are there.
 std::optional<std::array<std::size_t, 3>> find_channels(const OIIO::ImageSpec& spec, const std::array<const char*, 3>& names) {
     std::array<std::size_t, 3> places{};
     for (std::size_t c = 0; c < 3; ++c) {
@@ -68,7 +69,7 @@ Image pick_channels(const OIIO::ImageSpec& spec, const std::vector<float>& value
     return picture;
 }
 
-// All channels. Some of OpenImageIO's readers let exceptions out where a file is damaged.
+// Reads all channels. Some of OpenImageIO's readers throw exceptions for damaged files.
 void read_pixels(OIIO::ImageInput& input, const std::string& path, OIIO::TypeDesc type, void* values) {
     std::string error;
     try {
@@ -80,7 +81,7 @@ void read_pixels(OIIO::ImageInput& input, const std::string& path, OIIO::TypeDes
     throw InputError(fmt::format("{}: the picture is damaged: {}", path, error));
 }
 
-// Some channels of each pixel.
+// Reads some channels of each pixel.
 template <class T>
 std::vector<T> read_channels(OIIO::ImageInput& input, const std::string& path, OIIO::TypeDesc type,
                              const std::vector<std::size_t>& places) {
@@ -117,8 +118,8 @@ Texels read_channels(OIIO::ImageInput& input, const std::string& path, const std
     return texels;
 }
 
-// Damaged headers speak of sizes that no memory holds. Of the formats, those that pack plain surfaces best (OpenEXR's DWAB: 256
-// rows in some hundred bytes) stay below 1 : 65,536.
+// Damaged headers give sizes that no memory holds. The formats that pack plain surfaces best (OpenEXR's DWAB: 256 rows
+// in some hundred bytes) stay below 1 : 65,536.
 void expect_possible_size(const OIIO::ImageSpec& spec, std::uint64_t file_bytes, const std::string& name) {
     const double bytes = static_cast<double>(spec.image_pixels()) * spec.nchannels * sizeof(float);
     if (spec.depth != 1 || bytes > 65536.0 * static_cast<double>(file_bytes) || bytes > 0.5 * physical_memory())
@@ -126,7 +127,8 @@ void expect_possible_size(const OIIO::ImageSpec& spec, std::uint64_t file_bytes,
                                      spec.width, spec.height, spec.nchannels));
 }
 
-// Alpha is not multiplied into the colours. `memory`: in place of the file of this name; must outlive the result.
+// Opens a picture without multiplying alpha into the colours. `memory` stands in place of the file of this name; it
+// must outlive the result.
 std::unique_ptr<OIIO::ImageInput> open_picture(const std::string& name, std::istream& file, std::uint64_t file_bytes,
                                                OIIO::Filesystem::IOProxy* memory) {
     OIIO::ImageSpec as_they_are, found;
@@ -141,7 +143,7 @@ std::unique_ptr<OIIO::ImageInput> open_picture(const std::string& name, std::ist
         if (!format.empty()) input = OIIO::ImageInput::create(format);
         if (input && memory && !input->set_ioproxy(memory)) input.reset();
         opened = input && input->open(name, found, as_they_are);
-    } catch (const std::exception&) {  // some readers let them out where a file is damaged
+    } catch (const std::exception&) {  // some readers throw these for damaged files
     }
     if (!opened) {
         OIIO::geterror();
@@ -158,7 +160,7 @@ std::unique_ptr<OIIO::ImageInput> open_picture(const std::string& path) {
     return open_picture(path, file, std::filesystem::file_size(path, ignored), nullptr);
 }
 
-// Three channels of a part of the file, or the only one.
+// Three channels of a part of the file, or its only one.
 struct Layer {
     std::string name;
     int part;
@@ -174,7 +176,7 @@ std::optional<std::size_t> component_of(std::string_view end) {
     return std::nullopt;
 }
 
-// In the order of the file. `part_name`: of one part among several.
+// The layers of a part, in the order of the file. `part_name` is the name of one part among several.
 std::vector<Layer> layers_of_part(const OIIO::ImageSpec& spec, int part, const std::string& part_name) {
     constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
     std::vector<Layer> layers;
@@ -194,7 +196,7 @@ std::vector<Layer> layers_of_part(const OIIO::ImageSpec& spec, int part, const s
     return layers;
 }
 
-// Goes to a part of the file, if there is one of this number.
+// Goes to the part of this number; returns false if there is none.
 bool go_to(OIIO::ImageInput& input, int part, const std::string& path) {
     try {
         return input.seek_subimage(part, 0);
@@ -203,7 +205,7 @@ bool go_to(OIIO::ImageInput& input, int part, const std::string& path) {
     }
 }
 
-// Of all parts. A file of a single one has no name of its own.
+// The layers of all parts. The part of a file with a single one has no name of its own.
 std::vector<Layer> find_layers(OIIO::ImageInput& input, const std::string& path) {
     const bool has_parts = go_to(input, 1, path);
     std::vector<Layer> layers;
@@ -280,7 +282,7 @@ Texels read_layer(const std::string& path, const std::string& name) {
 }
 
 Texels decode_texels(std::string_view bytes, const std::string& name) {
-    OIIO::Filesystem::IOMemReader memory(const_cast<char*>(bytes.data()), bytes.size());  // which only reads
+    OIIO::Filesystem::IOMemReader memory(const_cast<char*>(bytes.data()), bytes.size());  // IOMemReader only reads
     std::istringstream file{std::string(bytes)};
     const auto input = open_picture(name, file, bytes.size(), &memory);
     std::vector<std::size_t> places(static_cast<std::size_t>(std::min(input->spec().nchannels, 4)));

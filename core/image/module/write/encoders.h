@@ -1,5 +1,5 @@
-// Writes pictures and text on pictures: the functions of image_io.h, each by the library of its format. Unlike OpenImageIO, which
-// reads, they load in some milliseconds.
+// Writes pictures and text on pictures: functions of image_io.h, each by the library of its format. These libraries
+// load in some milliseconds, unlike OpenImageIO.
 #pragma once
 
 #include "core/image/exr_parts.h"

@@ -1,4 +1,4 @@
-// OpenEXR files, by OpenEXR.
+// Writes OpenEXR files, by OpenEXR.
 #include "core/image/module/write/encoders.h"
 
 #include "core/base/error.h"
@@ -87,7 +87,7 @@ struct Layer {
 
 std::string channel(const Layer& layer, int component) { return layer.prefix + std::string(1, "RGB"[component]); }
 
-// Rows of all layers as floats, one channel after another.
+// A buffer for rows of all layers as floats, one channel after another.
 Imf::FrameBuffer floats(const std::vector<Layer>& layers, int y, int rows, float* to) {
     Imf::FrameBuffer buffer;
     for (const Layer& layer : layers) {
@@ -119,11 +119,11 @@ void set_attribute(Imf::Header& header, const std::string& name, const Attribute
     }
 }
 
-// The channels of a picture, and its header. Refers to the picture.
+// The channels of a picture, to which it keeps a reference, and its header.
 class Encoded {
 public:
-    // `part`: the name of the part that it is, if any. Programs that show layers (Blender 3.4) go by the channels' names and not by
-    // the parts'; Combined is what Blender calls the picture itself.
+    // `part` is the name of the picture's part, if the file has several. Programs that show layers (Blender 3.4) go by
+    // the channels' names and not by the parts'; Combined is what Blender calls the picture itself.
     Encoded(const PixelEstimate& picture, const Attributes& attributes, const std::string& part = "")
         : width(picture.mean.width), height(picture.mean.height), header(std::max(1, width), std::max(1, height)) {
         if (!picture.least_error.pixels.empty()) raised_ = picture.pixel_errors();
@@ -134,8 +134,8 @@ public:
             layers_.push_back({first + "stderr.", is_raised ? &raised_ : &picture.standard_error});
         if (is_raised) layers_.push_back({first + "spread.", &picture.standard_error});
         if (!picture.discretisation.pixels.empty()) layers_.push_back({first + "discretisation.", &picture.discretisation});
-        // By run lengths: most bits of a picture with errors are noise, so that zip makes 0.78 of it and run lengths 0.81, in a
-        // tenth of the time.
+        // Most bits of a picture with errors are noise: zip would save little more than run lengths, in ten times the
+        // time.
         header.compression() = Imf::RLE_COMPRESSION;
         for (const auto& [name, value] : attributes) set_attribute(header, name, value);
         for (const Layer& layer : layers_) {
@@ -151,10 +151,10 @@ public:
         return 3 * layers_.size() * layers_.front().image->pixels.size() * sizeof(float) + 16 * static_cast<std::size_t>(height) +
                0x4000;
     }
-    // Into an Imf::OutputFile, or a part of a file.
+    // Writes into an Imf::OutputFile, or into a part of a file.
     template <class File>
     void write(File& file) const {
-        constexpr int rows_at_once = 16;  // as floats, they stay in the cache
+        constexpr int rows_at_once = 16;  // floats of so few rows stay in the cache
         std::vector<float> values(3 * layers_.size() * rows_at_once * static_cast<std::size_t>(width));
         for (int y = 0; y < height; y += rows_at_once) {
             const int rows = std::min(rows_at_once, height - y);
@@ -171,7 +171,7 @@ private:
     std::vector<Layer> layers_;
 };
 
-// write(); OpenEXR's exceptions become RunError.
+// Calls write(), and turns OpenEXR's exceptions into RunError.
 template <class Write>
 void expect_written(int width, int height, const Write& write) {
     try {

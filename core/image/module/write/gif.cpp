@@ -1,4 +1,4 @@
-// GIF files of one picture, by giflib.
+// Writes GIF files of one picture, by giflib.
 #include "core/image/module/write/encoders.h"
 
 #include "core/base/error.h"

@@ -1,4 +1,4 @@
-// Text on pictures, by FreeType.
+// Draws text on pictures, by FreeType.
 #include "core/image/module/write/encoders.h"
 
 #include "core/base/error.h"
@@ -23,7 +23,7 @@ namespace neumann::encoders {
 
 namespace {
 
-// Of UTF-8; of anything else, such as an old file name, byte by byte.
+// The characters of a text in UTF-8; of any other text, such as an old file name, its bytes.
 std::vector<FT_ULong> characters(const std::string& text) {
     using Iterator = boost::u8_to_u32_iterator<std::string::const_iterator>;
     try {
@@ -34,7 +34,7 @@ std::vector<FT_ULong> characters(const std::string& text) {
     }
 }
 
-// A font file, open. FreeType is for one thread at a time.
+// An open font file, which FreeType uses for one thread at a time.
 class Font {
 public:
     explicit Font(const std::string& path) {
@@ -47,7 +47,7 @@ public:
 
     bool is_there() const { return face_ != nullptr; }
 
-    // Calls what(glyph, x) for each character, drawn beside the ones before; x: where its advance begins.
+    // Calls what(glyph, x) for each character, drawn beside the ones before; its advance begins at x.
     template <class Function>
     void for_glyphs(const std::string& text, int size, const Function& what) {
         const std::scoped_lock lock(one_at_a_time_);
@@ -78,7 +78,7 @@ Font& opened(const std::string& path) {
 }  // namespace
 
 std::optional<std::string> find_label_font() {
-    // Debian and Ubuntu, Fedora, Arch.
+    // These are the paths of Debian and Ubuntu, Fedora, and Arch.
     for (const char* const path : {"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
                                    "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf", "/usr/share/fonts/TTF/DejaVuSans.ttf"})
         if (opened(path).is_there()) return path;

@@ -1,4 +1,4 @@
-// PNG files, by libpng.
+// Writes PNG files, by libpng.
 #include "core/image/module/write/encoders.h"
 
 #include "core/base/error.h"
@@ -19,13 +19,14 @@ void flush(png_structp) {}
 
 }  // namespace
 
-// Differences to the row above, and the least that zlib can do: a sixth of the time of libpng's defaults, and a fifth more bytes.
+// Rows are coded by the difference to the row above, with zlib's lowest effort: it takes a sixth of the time of
+// libpng's defaults, for a fifth more bytes.
 std::string encode_png(const DisplayImage& picture, const std::string& comment) {
     std::string bytes, key = "Comment", text = comment;
     png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
     png_infop info = png == nullptr ? nullptr : png_create_info_struct(png);
     if (info == nullptr) throw std::bad_alloc();
-    // An error in libpng comes back here. Nothing that has a destructor is made from here on.
+    // libpng jumps back here after an error, so nothing that has a destructor is made from here on.
     if (setjmp(png_jmpbuf(png)) != 0) {
         png_destroy_write_struct(&png, &info);
         throw RunError(fmt::format("libpng cannot write a picture of {}×{}", picture.width, picture.height));
