@@ -1,4 +1,4 @@
-// What an affine map does to points, vectors and normals.
+// How an affine map acts on points, vectors and normals.
 #pragma once
 
 #include "core/base/vec.h"
@@ -16,7 +16,7 @@ inline double largest_entry(const Mat4& m) {
 inline glm::dmat3 scaled_to_one(const Mat4& m) { return glm::dmat3(m) / largest_entry(m); }
 
 inline bool is_mirroring(const Mat4& m) { return glm::determinant(scaled_to_one(m)) < 0.0; }
-// Up to a positive factor: of a mirroring map too, normals stay on their side.
+// The map is up to a positive factor; normals stay on their side, also if m mirrors.
 inline glm::dmat3 map_of_normals(const Mat4& m) { return glm::transpose(glm::inverse(scaled_to_one(m))); }
 
 }  // namespace neumann

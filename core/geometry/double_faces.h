@@ -14,7 +14,7 @@
 
 namespace neumann {
 
-// The triangle of a face, which an instance makes when it is asked; null if the face is round.
+// The triangle of a face, which is made on demand for an instance; null if the face is round.
 class TriangleOfFace {
 public:
     TriangleOfFace(const Triangle* stored = nullptr) : stored_(stored) {}
@@ -31,7 +31,8 @@ private:
 
 class DoubleFaces {
 public:
-    // Geometry's arrays, which must outlive this object, by shape: triangles of meshes, and errors of other shapes.
+    // Geometry's arrays by shape, which must outlive this object: the triangles of meshes, and the errors of other
+    // shapes.
     DoubleFaces(const std::vector<Shape>& shapes, std::span<const std::vector<Triangle>> triangles, std::span<const double> errors)
         : shapes_(&shapes), triangles_(triangles), errors_(errors) {}
 
@@ -49,9 +50,9 @@ public:
         return of_shape.empty() ? errors_[f.shape] : of_shape[f.primitive].error();
     }
     Bounds bounds(const Face& f) const;
-    // At least the size, from the triangle alone: its corners are elsewhere in memory.
+    // An upper bound on the size from the triangle alone, because its corners are elsewhere in memory.
     double size_at_most(const Face& f) const;
-    // Have memory fetch what is asked for next, of many faces at a time: of a fine mesh it is in no cache. A triangle and the
+    // Prefetch what is needed next, for many faces at a time, because a fine mesh is in no cache: a triangle and the
     // numbers of its corners; then the corners.
     void prefetch(const Face& f) const {
         if (triangles_[f.shape].empty()) return;
@@ -62,7 +63,7 @@ public:
     void prefetch_corners(const Face& f) const;
     // Diameter of the sphere around the face's bounding box.
     double size(const Face& f) const { return 2.0 * bounds(f).radius(); }
-    // Without those of instances.
+    // All faces but those of instances.
     std::vector<Face> all() const;
 
     // Whether p is at most `distance` from the face; near corners the limit is a little larger.
@@ -71,7 +72,7 @@ public:
     struct Height {
         Vec3 normal;  // unit length, at the place that is nearest to p
         double distance, rounding;
-        // As far as doubles can tell.
+        // Whether the height is 0, as far as doubles can tell.
         bool is_zero() const { return std::abs(distance) <= rounding; }
     };
     Height height(const Face& f, const Vec3& p) const;
@@ -83,8 +84,8 @@ public:
     int meet(const Face& f, const RayStart& start, const Vec3& direction, double (&distances)[2], double roundings = 1.0) const;
     // A ray that passes an edge by fewer rounding errors might as well be on its other side.
     static constexpr double unsure = 2.0;
-    // For such a ray from p, which meets the face at `distance`: how to move it so that it certainly hits the face. Otherwise
-    // nothing.
+    // The displacement that makes such a ray from p, which meets the face at `distance`, certainly hit the face;
+    // nothing for other rays.
     std::optional<Vec3> off_edge(const Face& f, const Vec3& p, const Vec3& direction, double distance) const;
 
 private:

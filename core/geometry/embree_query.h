@@ -1,5 +1,5 @@
-// The two versions of Embree's interface that neumann is built with, as one: a query, the faces that it does not look for or passes
-// through, and the calls that trace it.
+// The two versions of Embree's interface with which neumann is built, as one: a query, the faces that it leaves out or
+// passes through, and the calls that trace it.
 #pragma once
 
 #include "core/geometry/face.h"
@@ -17,8 +17,8 @@
 
 namespace neumann::embree {
 
-// The query context, with Embree's part first: the faces to skip, sorted; and where those go that the ray passes through, of which
-// it passes through so many at most.
+// The query context, which begins with Embree's part: the sorted faces to skip, and the list of the faces through which
+// the ray passes, with the most that it may pass.
 #if RTC_VERSION_MAJOR >= 4
 using EmbreeContext = RTCRayQueryContext;
 inline void init(EmbreeContext& context) { rtcInitRayQueryContext(&context); }

@@ -1,5 +1,5 @@
-// Spheres, discs and cylinders for Embree, which asks where its rays meet them. In its coordinates; distances are computed in
-// double.
+// Spheres, discs and cylinders for Embree, which asks where its rays meet them. Coordinates are Embree's; distances are
+// computed in double.
 #pragma once
 
 #include "core/base/vec.h"
@@ -54,7 +54,7 @@ struct CylinderData {
     double length, radius;
     RTCBounds bounds;
 
-    // As the sphere, across the axis; of the two roots those on the cylinder count.
+    // Works as the sphere's, across the axis; only roots on the cylinder count.
     double intersect(const RTCRay& ray) const {
         const Vec3 d = direction(ray), f = origin(ray) - base;
         const double d_along = glm::dot(d, axis), f_along = glm::dot(f, axis);

@@ -269,7 +269,7 @@ bool Geometry::visible(const SurfacePoint& x, const SurfacePoint& y) const {
 bool Geometry::visible_in_double(const SurfacePoint& x, const SurfacePoint& y) const {
     const Vec3 d = y.position - x.position;
     std::vector<Face> faces = giants_;
-    // Where one end is close, a displaced other end would tilt the ray past what is close to the first.
+    // If one end is close, a displaced other end would tilt the ray past what is close to the first.
     const bool exact = x.close || y.close;
     if (exact)
         for (const SurfacePoint* end : {&x, &y}) {

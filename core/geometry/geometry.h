@@ -90,8 +90,9 @@ public:
         }
         return found;
     }
-    // As first_hits(), for estimates to which it does not matter which of two surfaces is met where they are closer together than
-    // floats resolve: nothing is asked about what is near. `from` may give bare points, and the hits are bare.
+    // Finds hits as first_hits() does, for estimates to which it does not matter which of two surfaces is met if they
+    // are closer together than floats resolve: what is near is not looked for. `from` may give bare points, and the
+    // hits are bare.
     template <class FromAt, class HitAt>
     std::uint32_t rough_hits(std::size_t n, const FromAt& from, const HitAt& hit) const {
         if (!giants_.empty()) return first_hits(n, from, hit);
@@ -163,13 +164,13 @@ public:
         return p;
     }
 
-    // Such a point, of which it is not found out whether it is close; look_around() does that, and moves a point that is close off
-    // faces that cross its own.
+    // A point for which it is not determined whether it is close. look_around() does that, and moves a point that is
+    // close off faces that cross its own.
     SurfacePoint bare_point(const Place& place, const Vec2& uv) const;
     void look_around(SurfacePoint& p) const { look_around(p, nullptr); }
-    // What a ray along the normal back to such a point meets first, where it starts so many of the point's errors in front of it
-    // and ends as far behind: the point, or a bare point of a face that lies in the same place. Of a heap of faces a few are
-    // compared, whatever its size.
+    // The first hit of a ray along the normal back to such a point, which starts `errors` times the point's error in
+    // front of it and ends as far behind: the point, or a bare point of a face that lies in the same place. In a heap
+    // of faces a few are compared, whatever its size.
     SurfacePoint seen_in_place_of(const SurfacePoint& p, double errors) const;
 
     // Moves a point near the plane of a triangle onto the triangle.
@@ -229,8 +230,8 @@ private:
     }
     bool put_among_others(const RayStart& start, const Vec3& direction, const RayCaster::Hit& hit, SurfacePoint& p) const;
     SurfacePoint hit_among_others(const RayStart& start, const Vec3& direction, const RayCaster::Hit& hit) const;
-    // The hit by itself, whatever else is near. Returns false if the ray passes beside the face that Embree found, within Embree's
-    // rounding; then p is on its edge.
+    // Computes the hit by itself, whatever else is near. Returns false if the ray passes beside the face that Embree
+    // found, within Embree's rounding; then p is on its edge.
     bool put_alone(const Vec3& origin, const Vec3& direction, const RayCaster::Hit& hit, SurfacePoint& p) const;
     bool put_near_edge(const Vec3& origin, const Vec3& direction, const RayCaster::Hit& hit, SurfacePoint& p) const;
     // Moves such a p to the face around it that the ray meets in double, if there is one.
@@ -240,9 +241,10 @@ private:
         return {t.at(position, [&] { return edges(shape, primitive); }), t.normal(), t.error(), shape, primitive};
     }
     void look_around(SurfacePoint& p, const StartedRay* ray) const;
-    // A face close to the hit p may be hit first; then moves p to it. Returns false if the ray misses p's own face.
+    // Moves p to a face close to it that is hit first, if there is one. Returns false if the ray misses p's own face.
     bool settle(const RayStart& start, const Vec3& direction, SurfacePoint& p) const;
-    // After that: the first hit, with the close faces in double and all others by Embree, whose ray starts at `embree_start`.
+    // The first hit after that, with the close faces in double and all others by Embree, whose ray starts at
+    // `embree_start`.
     bool first_hit_past(const RayStart& start, const Vec3& embree_start, const Vec3& direction, double distance,
                         std::vector<Face> faces, SurfacePoint& hit) const;
     SurfacePoint bare_point_on(const Face& face, const Vec3& position) const;
@@ -266,8 +268,8 @@ private:
     Vec3 center_{0.0};
     double radius_ = 0.0;
     std::unique_ptr<RayCaster> caster_;
-    std::vector<std::vector<Triangle>> triangles_;  // by shape; empty if the shape is not a mesh of its own
-    std::vector<double> error_;                     // by shape: of those that are not meshes of their own
+    std::vector<std::vector<Triangle>> triangles_;  // by shape; empty if the shape has no mesh of its own
+    std::vector<double> error_;                     // by shape, for shapes without a mesh of their own
     std::vector<Face> giants_;
     std::unique_ptr<Neighbours> neighbours_;
 };

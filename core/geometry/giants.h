@@ -16,8 +16,8 @@ struct Giants {
     std::vector<Face> faces;  // in order; a few, or none
     Bounds rest;              // bounds of all other faces; empty if there are none
 
-    // The part of a ray, up to `distance`, that is near the rest; only this part is traced with Embree. Nothing if the ray does not
-    // come near. The whole ray if there are no giants. `direction`: unit length.
+    // The part of a ray, up to `distance`, that is near the rest; only this part is traced with Embree. Nothing if the
+    // ray does not come near; the whole ray if there are no giants. `direction` has unit length.
     struct Part {
         double begin, end;
     };

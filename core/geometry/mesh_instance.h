@@ -36,9 +36,9 @@ public:
     const Mat4& to_world() const { return to_world_; }
     // Whether the second and third corner of a triangle are exchanged.
     bool mirrors() const { return mirrors_; }
-    // Of a shading normal; 0 if it is 0.
+    // Maps a shading normal; the result is 0 if the normal is 0.
     Vec3 normal_to_world(const Vec3& n) const;
-    // Contains the mesh, and may be larger.
+    // A box that contains the mesh, and may be larger.
     Bounds bounds() const;
     // A bound on the length of the longest edge.
     double longest_edge() const { return shared_->longest_edge() * stretch_; }

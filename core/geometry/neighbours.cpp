@@ -18,14 +18,14 @@ namespace {
 namespace index = boost::geometry::index;
 
 constexpr std::size_t largest_asked_one_by_one = 16;
-// Regions that reach at most this far from the edges (as a barycentric weight) are not stored individually. Where a fine mesh ends
-// at a wall, it is close to few points of such a strip.
+// Regions that reach at most this far from the edges (as a barycentric weight) are not stored individually. A fine mesh
+// that ends at a wall is close to few points of such a strip.
 constexpr double along_edges = 1.0 / 64.0, along_edges_of_small = 1.0 / 4096.0, small = 1.0 / 16.0;
 constexpr double reach_in_errors = 64.0;
 // With more faces around it than this, a face is in a crowd. In a mesh of even triangles there are about thirty.
 constexpr std::size_t crowd = 256;
 
-// A wall of a room is so much larger than the faces of a fine mesh in the room.
+// A wall of a room is about this many times larger than the faces of a fine mesh in the room.
 constexpr double large_among_crowd = 16.0;
 constexpr int cells_among_crowd = 128;
 constexpr std::size_t asked_at_once = 64;
@@ -62,8 +62,8 @@ bool continues(const DoubleFaces& faces, const Face& a, const Face& b) {
     return std::min({largest.x, largest.y, largest.z}) <= rounding;
 }
 
-// One point in four, by its bits. To examine a face takes as long as some eight questions what is near a point, and most faces of
-// a fine mesh are hit a few times: a face is examined when it is first asked for such a point.
+// Picks one point in four, by its bits. Examining a face takes as long as some eight searches around a point, and most
+// faces of a fine mesh are hit a few times, so a face is examined when such a point is first looked up on it.
 bool is_picked(const Vec3& p) {
     std::uint64_t bits = 0;
     for (int axis = 0; axis < 3; ++axis) bits = (bits ^ std::bit_cast<std::uint64_t>(p[axis])) * 0x9e3779b97f4a7c15ull;
@@ -118,7 +118,7 @@ std::vector<Face> Neighbours::around(const SurfacePoint& p) const {
     std::erase_if(found, [&](const Face& f) {
         // First a test that ignores the faces' sizes.
         const double most = reach_in_errors * (p.error + faces_.error(f));
-        // A light without extent is on no face.
+        // A light without extent lies on no face.
         return f != own &&
                !(faces_.is_near(f, p.position, most) && (p.is_infinite() || faces_.is_near(f, p.position, reach(own, f))));
     });
@@ -172,7 +172,7 @@ bool Neighbours::is_near_other(const SurfacePoint& p, double aside) const {
     const Face f{p.shape, p.primitive};
     const double size = faces_.size_at_most(f);
     const auto is_near = [&](const Face& other) {
-        // First without the other's corners: most are not that near.
+        // The first test ignores the other's corners: most faces are not that near.
         if (other == f || !faces_.is_near(other, p.position, reach(faces_.error(f) + faces_.error(other), size) + aside))
             return false;
         const double near = reach_of_close_points(f, other).distance;
@@ -336,7 +336,7 @@ void Neighbours::examine(const Face& f) const {
         for (const auto& polygon : polygons) cells.mark(polygon);
         kept = &surroundings_.emplace(f, Surroundings{std::move(cells), Boxes(boxes)}).first->second.cells;
     }
-    // Rounded up by more than the weights' rounding, and above 0, so that points on an edge are never clear.
+    // Weights are rounded up by more than their rounding, and above 0, so that points on an edge are never clear.
     const auto rounded_up = [](double weight) { return std::nextafter(static_cast<float>(1.001 * weight), 1.0f); };
     if (const TriangleOfFace t = faces_.triangle(f))
         t->set_close(rounded_up(strip), rounded_up(corner), kept);
@@ -365,8 +365,8 @@ std::optional<Neighbours::Met> Neighbours::nearest(std::span<const Face> faces, 
     return met;
 }
 
-// Where a ray passes an edge of a body within rounding, it may miss the front and hit the back, or find the back first. A ray
-// beside it, clear of the edge, tells which of the faces that both hit is in front.
+// Where a ray passes an edge of a body within rounding, it may miss the front and hit the back, or find the back first.
+// A ray beside it, clear of the edge, shows which of the faces that both hit is in front.
 std::optional<Neighbours::Met> Neighbours::first(std::span<const Face> faces, const RayStart& start, const Vec3& direction) const {
     const auto met = nearest(faces, start, direction);
     if (!met) return met;
@@ -377,7 +377,7 @@ std::optional<Neighbours::Met> Neighbours::first(std::span<const Face> faces, co
         double distances[2];
         if (faces_.meet(f, start, direction, distances, 2.0 * DoubleFaces::unsure) > 0) hit.push_back(f);
     }
-    // So far back that it starts before all of them.
+    // The ray beside starts so far back that it is before all of them.
     const double back = 1024.0 * glm::length(*off_edge);
     RayStart beside = start;
     beside.position += *off_edge - direction * back;

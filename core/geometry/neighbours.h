@@ -1,15 +1,17 @@
-// Faces that are closer together than Embree's floats can resolve (creases, thin gaps, surfaces that touch) are intersected in
-// double.
+// Faces that are closer together than Embree's floats can resolve (creases, thin gaps, surfaces that touch) are
+// intersected in double.
 //
-// Embree holds faces that are displaced by up to their error (SurfacePoint::error), and a ray starts that far from its surface. A
-// point is *close* if another face is nearer than the sum of both errors: a ray could start behind that face, or end on the wrong
-// one of the two. It is also close if a face that does not touch its own is nearer than 64 times that, because a ray with an offset
-// origin sees past it what the point does not see. What is near a point is looked for in Embree's tree. Of a face that is asked for
-// more than a few times it is found out once which parts can have close points at all, usually strips along edges, a millionth of
-// the scene wide; points elsewhere are clear without a search, and the answer is the same. Of a face with a crowd around it nothing
-// is kept: else a scene whose faces are long and thin, or share a corner, would take time with the square of their number; nor of
-// the faces of instances, of which there may be a thousand times more than memory for them. Rays of close points are intersected
-// with the faces around them in double, and with all others by Embree.
+// Embree holds faces that are displaced by up to their error (SurfacePoint::error), and a ray starts that far from its
+// surface. A point is *close* if another face is nearer than the sum of both errors: a ray could start behind that
+// face, or end on the wrong one of the two. It is also close if a face that does not touch its own is nearer than 64
+// times that, because a ray with an offset origin sees past it what the point does not see. Rays of close points are
+// intersected with the faces around them in double, and with all others by Embree.
+//
+// Faces near a point are searched in Embree's tree. For a face that is searched more than a few times, the parts that
+// can have close points at all are determined once, usually strips along edges, a millionth of the scene wide; points
+// elsewhere are clear without a search, with the same result. Nothing is kept for a face with a crowd around it:
+// otherwise a scene whose faces are long and thin, or share a corner, would take time with the square of their number.
+// Nothing is kept either for the faces of instances, of which there may be a thousand times more than fit in memory.
 #pragma once
 
 #include "core/geometry/double_faces.h"
@@ -37,11 +39,12 @@ public:
 
     // Whether p, on its face, is close to another one.
     bool is_close(const SurfacePoint& p) const;
-    // Whether Embree's ray, whose origin is displaced by rounding, may have hit p's face in place of another one; if not, p is not
-    // close. `cosine`: of the ray with p's normal.
+    // Whether Embree's ray, whose origin is displaced by rounding, may have hit p's face in place of another one; if
+    // not, p is not close. `cosine` is between the ray and p's normal.
     bool may_hide(const SurfacePoint& p, double cosine) const;
-    // Where p, hit by this ray, lies on faces that cross its own, within rounding: moves it along its own face to the side of them
-    // from which the ray came, so that rays know on which side of them they start. Without a ray, p stays on the side where it is.
+    // If p, hit by this ray, lies on faces that cross its own, within rounding, moves it along its own face to the side
+    // of them from which the ray came, so that rays know on which side of them they start. Without a ray, p stays on
+    // the side where it is.
     void part(SurfacePoint& p, const StartedRay* ray) const;
     // The faces within rounding of p, including its own, in order.
     std::vector<Face> around(const SurfacePoint& p) const;
@@ -50,7 +53,8 @@ public:
         Face face;
         double distance;
     };
-    // The first of the faces that a ray hits, without those behind the face that it starts on. `direction`: unit length.
+    // The first of the faces that a ray hits, without those behind the face on which it starts. `direction` has unit
+    // length.
     std::optional<Met> first(std::span<const Face> faces, const RayStart& start, const Vec3& direction) const;
     // Whether one of the faces lies strictly between x and y.
     bool any_between(std::span<const Face> faces, const SurfacePoint& x, const SurfacePoint& y) const;
@@ -66,8 +70,8 @@ private:
     };
     using Boxes = boost::geometry::index::rtree<std::pair<Box, Other>, boost::geometry::index::linear<16>>;
 
-    // The faces close to the interior of a face, in boxes; for a triangle, the cells allow a quick first test. Of a triangle that
-    // is large among a crowd only the cells are kept.
+    // The faces close to the interior of a face, in boxes; for a triangle, the cells allow a quick first test. For a
+    // triangle that is large among a crowd only the cells are kept.
     struct Surroundings {
         WeightCells cells;
         Boxes boxes;
@@ -78,7 +82,7 @@ private:
         bool touches;
     };
     Reach reach_of_close_points(const Face& f, const Face& other) const;
-    // Whether another face is that near to p, plus `aside`; by looking for it.
+    // Searches for another face that is as near to p as that, plus `aside`.
     bool is_near_other(const SurfacePoint& p, double aside) const;
     void examine(const Face& f) const;
     // The faces that may have close points on f, or as many of them as are a crowd.
@@ -88,20 +92,20 @@ private:
     };
     Others others_around(const Face& f) const;
     void examine_among_crowd(const Face& f, const std::vector<Face>& some) const;
-    // Marks the cells of the triangle f that may be close to others, from the square of weights of this width: row and column are
+    // Marks the cells of the triangle f that may be close to others, within one square of weights; row and column are
     // those of the square.
     void mark_near_others(const Face& f, int column, int row, int squares, WeightCells& cells) const;
     enum class State : std::uint8_t { unknown, clear, not_clear, crowded };
     State state_of_round(const Face& f) const;
     // Whether is_near_other() may hold for p: whether a face in the boxes of p's face is within its `near` distance plus `aside`.
     bool is_in_boxes(const SurfacePoint& p, double aside) const;
-    // first(), but for rays that pass an edge within rounding.
+    // Does what first() does, except for rays that pass an edge within rounding.
     std::optional<Met> nearest(std::span<const Face> faces, const RayStart& start, const Vec3& direction) const;
     // For triangles: whether f lies entirely on the other side of the plane of `own` than `direction`.
     bool is_behind(const Face& f, const Face& own, const Vec3& direction) const;
     // The distance below which two faces that do not touch have close points.
     double reach(const Face& a, const Face& b) const;
-    // `errors`: the sum of both; `smaller`: the size of the smaller face.
+    // `errors` is the sum of both faces' errors, and `smaller` the size of the smaller face.
     static double reach(double errors, double smaller);
     void append_near(const Vec3& p, double distance, std::vector<Face>& found) const;
 
@@ -117,7 +121,7 @@ private:
     std::vector<Large> large_;
     double error_of_rest_ = 0;          // the largest error of the others
     double largest_error_ = 0;          // the largest error of all faces: how far an origin of a ray may be displaced
-    mutable std::vector<State> round_;  // of round faces, by shape; for triangles see Triangle::is_clear()
+    mutable std::vector<State> round_;  // for round faces, by shape; triangles have Triangle::is_clear()
     mutable oneapi::tbb::concurrent_map<Face, Surroundings> surroundings_;
 };
 

@@ -16,7 +16,7 @@ struct Segment {
 // Faces that meet at less than this angle (radians) are one bent surface.
 constexpr double least_bend = 0.5;
 
-// At most `most` of them, the longest ones. `direction`: unit length.
+// Returns the longest lines, `most` at most. `direction` has unit length.
 std::vector<Segment> outline(std::span<const Shape> shapes, const Vec3& direction, std::size_t most);
 
 }  // namespace neumann

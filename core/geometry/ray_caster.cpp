@@ -60,7 +60,7 @@ struct RayCaster::Impl {
     RTCDevice device = nullptr;
     RTCScene scene = nullptr;
     std::map<const SharedMesh*, SharedScene> shared;
-    double distortion = 0.0;  // the largest of an instance
+    double distortion = 0.0;  // the largest of any instance
     std::vector<std::unique_ptr<embree::SphereData>> spheres;
     std::vector<std::unique_ptr<embree::DiskData>> disks;
     std::vector<std::unique_ptr<embree::CylinderData>> cylinders;
@@ -315,7 +315,7 @@ bool RayCaster::any_near(const Vec3& p, double distance, bool (*ask)(const void*
             const RTCPointQueryContext& query_context = *args->context;
             const std::uint32_t shape = query_context.instStackSize > 0 ? query_context.instID[0] : args->geomID;
             now.found = now.ask(now.wanted, {shape, args->primID});
-            // Of a sphere of no size Embree visits no more boxes than those that hold the point.
+            // Once found, a sphere of radius 0 makes Embree visit no more boxes than those that hold the point.
             if (now.found) args->query->radius = 0.0f;
             return now.found;
         },

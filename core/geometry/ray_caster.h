@@ -18,8 +18,9 @@ namespace neumann {
 
 class RayCaster {
 public:
-    // Coordinates are moved by −center and multiplied by `scale` for Embree. Triangles without extent must have been removed; other
-    // shapes without extent, and the faces `without` (sorted), are left out. The shapes must outlive the caster.
+    // Coordinates are moved by −center and multiplied by `scale` for Embree. Triangles without extent must have been
+    // removed; other shapes without extent, and the sorted faces `without`, are left out. The shapes must outlive the
+    // caster.
     RayCaster(const std::vector<Shape>& shapes, std::span<const Face> without, const Vec3& center, double scale);
     ~RayCaster();
 
@@ -45,7 +46,7 @@ public:
     bool intersect(const Vec3& origin, const Vec3& direction, double distance, std::span<const Face> without, Hit& hit) const;
     bool occluded(const Vec3& from, const Vec3& to, std::span<const Face> without) const;
 
-    // Appends what lies between two points, without some faces, but not more than `most` faces in all.
+    // Appends the faces between two points, except some, up to `most` faces in all.
     void append_between(const Vec3& from, const Vec3& to, std::span<const Face> without, std::size_t most,
                         std::vector<Face>& found) const;
     // Whether is_wanted(face) is true of one of the faces closer to p than `distance`, and possibly of others. The search ends with

@@ -77,7 +77,7 @@ Vec2 coordinates(const Disk& d, const Vec3& position) {
 
 double area(const Disk& d) { return pi * glm::length(glm::cross(d.u, d.v)); }
 
-// `across`: of any length, perpendicular to the axis.
+// `across` has any length and is perpendicular to the axis.
 RoundPoint put(const Cylinder& c, double along, const Vec3& across, double error) {
     const Vec3 n = glm::normalize(across);
     const double margin = std::min(error, 0.5 * c.length);
@@ -89,7 +89,7 @@ RoundPoint put(const Cylinder& c, const Vec3& position, double error) {
     return put(c, along, position - c.base - c.axis * along, error);
 }
 
-// As for a sphere, perpendicular to the axis.
+// Works as for a sphere, perpendicular to the axis.
 RoundPoint hit(const Cylinder& c, const Vec3& origin, const Vec3& direction, double distance, double error) {
     const Vec3 f = origin - c.base;
     const double d_along = glm::dot(direction, c.axis), f_along = glm::dot(f, c.axis);

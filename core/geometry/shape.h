@@ -10,7 +10,7 @@
 
 namespace neumann {
 
-// Front side: outside, or inside when flipped.
+// The front is outside, or inside when flipped.
 struct Sphere {
     Vec3 center{0.0};
     double radius = 1.0;
@@ -24,7 +24,7 @@ struct Disk {
     Vec3 center{0.0}, u{1.0, 0.0, 0.0}, v{0.0, 1.0, 0.0};
     Vec3 normal{0.0, 0.0, 1.0};
 
-    // The a and b of a point in its plane, or of the point below p.
+    // The coordinates a and b of a point in the disk's plane, or of the point below p.
     Vec2 coordinates(const Vec3& p) const {
         const Vec3 f = p - center;
         const double uu = glm::dot(u, u), uv = glm::dot(u, v), vv = glm::dot(v, v), gram = uu * vv - uv * uv;
@@ -32,7 +32,8 @@ struct Disk {
     }
 };
 
-// The lateral surface around base + s·axis, 0 ≤ s ≤ length, open at both ends. Front side: outside, or inside when flipped.
+// The lateral surface around base + s·axis, 0 ≤ s ≤ length, open at both ends. The front is outside, or inside when
+// flipped.
 struct Cylinder {
     Vec3 base{0.0}, axis{0.0, 0.0, 1.0};  // axis: unit length
     double length = 1.0, radius = 1.0;
@@ -49,12 +50,13 @@ using Shape = std::variant<TriangleMesh, Sphere, Disk, Cylinder, MeshInstance>;
 
 // The mesh of a mesh or of an instance; otherwise null.
 const TriangleMesh* mesh_of(const Shape& shape);
-// Of a mesh or of an instance.
+// The corners of a triangle of a mesh or an instance.
 TriangleCorners corners_of(const Shape& shape, std::uint32_t triangle);
 
-// For a mesh: whether it has triangles. Triangles without area must have been removed before.
+// Whether a shape has extent; for a mesh, whether it has triangles. Triangles without area must have been removed
+// before.
 bool has_extent(const Shape& shape);
-// Of an instance, they may be larger than necessary.
+// The bounding box; that of an instance may be larger than necessary.
 Bounds bounds_of(const Shape& shape);
 
 // Mitsuba's rectangle [-1,1]² facing +z and cube [-1,1]³ facing outwards, transformed. Texture coordinates [0,1]² on each face.

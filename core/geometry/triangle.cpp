@@ -10,7 +10,7 @@ static_assert(sizeof(Triangle) == 128);
 
 namespace {
 
-constexpr Vec3 no_normal(0.0, 0.0, 1.0);  // of triangles without area
+constexpr Vec3 no_normal(0.0, 0.0, 1.0);  // for triangles without area
 
 struct Across {
     Vec3 product;  // cross product of two edges: along the normal, with twice the area as its length
@@ -33,7 +33,7 @@ Triangle::Triangle(const Vec3& a, const Vec3& b, const Vec3& c, double error) : 
     const Edges edges{b - a, c - a};
     const auto [product, longest] = across(a, b, c);
     const double twice = glm::length(product);
-    // An instance's, thinner than doubles can tell where it is placed: no ray hits it in double.
+    // An instance's triangle that is too thin for doubles where it is placed is hit by no ray in double.
     if (!(twice > 0.0)) {
         normal_ = no_normal;
         dual1_ = dual2_ = Vec3(0.0);

@@ -18,7 +18,7 @@ public:
         Vec3 first, second;
     };
 
-    // `error`: how far rounding to float moves a hit. The triangle must have an area.
+    // `error` is how far rounding to float moves a hit. The triangle must have an area.
     Triangle(const Vec3& a, const Vec3& b, const Vec3& c, double error);
 
     // The point with barycentric weights u of the second vertex and v of the third, moved inwards if it is too close to an edge for
@@ -64,11 +64,12 @@ public:
     }
     Vec3 near(const Meeting& m, float embree_u, float embree_v, const Edges& edges) const;
 
-    // Where another surface may be within rounding: strips along the edges, where one barycentric weight is small; corners, where
-    // two are; and cells. Neighbours computes this when it is first needed, and keeps the cells.
+    // These say where another surface may be within rounding: in strips along the edges, where one barycentric weight
+    // is small; in corners, where two are; and in cells. Neighbours computes them when they are first needed, and keeps
+    // the cells.
     static constexpr double grazing = 0.1;  // rays with a smaller cosine are never clear if there are cells
-    // `cosine`: of the ray that hits there. The distance to the edges must also cover the displacement of Embree's ray, which grows
-    // for grazing rays.
+    // Whether a hit is clear. `cosine` is that of the ray with the normal: the distance to the edges must also cover
+    // the displacement of Embree's ray, which grows for grazing rays.
     bool is_clear(const Vec2& w, double cosine = 1.0) const {
         if (is_near_edge(w, cosine)) return false;
         const WeightCells* cells = std::atomic_ref(cells_).load(std::memory_order_relaxed);
@@ -80,7 +81,7 @@ public:
                std::max(low, std::min(high, third)) * std::abs(cosine) < std::atomic_ref(corner_).load(std::memory_order_relaxed);
     }
     bool is_examined() const { return std::atomic_ref(strip_).load(std::memory_order_acquire) < unknown; }
-    // Whether so much is around that nothing is kept of where: no point is clear by itself.
+    // Whether so much is around the triangle that its close parts are not kept: no point is clear without a search.
     bool is_crowded() const { return std::atomic_ref(strip_).load(std::memory_order_acquire) == everywhere; }
     void set_crowded() const { set_close(everywhere, everywhere, nullptr); }
     void set_close(float strip, float corner, const WeightCells* cells) const {
@@ -99,8 +100,9 @@ private:
     double error_;
     mutable const WeightCells* cells_ = nullptr;
     float rounding_;  // of Embree's hits, as a barycentric weight; 1 if the triangle is too thin to have a hit in double
-    float margin_;  // hits keep this barycentric distance from the edges, so that doubles resolve on which side of an adjacent wall
-                    // they are; 0 if the triangle is too thin for that
+    // Hits keep this barycentric distance from the edges, so that doubles resolve on which side of an adjacent wall
+    // they are; 0 if the triangle is too thin for that.
+    float margin_;
     static constexpr float everywhere = 1.0f, unknown = 2.0f;  // larger than any smallest barycentric weight
     mutable float strip_ = unknown, corner_ = 0.0f;
 };

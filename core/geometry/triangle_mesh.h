@@ -11,14 +11,15 @@
 
 namespace neumann {
 
-// Colours that a file assigns to the vertices or triangles of a mesh ("vertex_color", "face_color"). Float, as in files.
+// Colours that a file assigns to the vertices or triangles of a mesh ("vertex_color", "face_color"), in float as in
+// files.
 struct MeshAttribute {
     std::string name;
     bool of_triangles = false;
     std::vector<std::array<float, 3>> values = {};
 };
 
-// Front side: vertices counter-clockwise.
+// The front is the side from which the vertices are counter-clockwise.
 struct TriangleMesh {
     std::vector<Vec3> vertices;
     std::vector<std::array<std::uint32_t, 3>> triangles;
@@ -42,7 +43,7 @@ TriangleCorners corners_of(const TriangleMesh& mesh, std::uint32_t triangle);
 
 // Throws InputError if a coordinate is not finite or an index is out of range.
 void expect_valid(const TriangleMesh& mesh);
-// Returns how many there were.
+// Returns how many triangles were erased.
 std::size_t erase_degenerate_triangles(TriangleMesh& mesh);
 
 }  // namespace neumann

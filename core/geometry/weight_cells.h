@@ -13,7 +13,7 @@ namespace neumann {
 
 class WeightCells {
 public:
-    // `count`: of cells along an edge.
+    // `count` is the number of cells along an edge.
     explicit WeightCells(int count) : count_(count), marked_(static_cast<std::size_t>(count) * static_cast<std::size_t>(count)) {}
 
     // Marks all cells that a convex polygon touches, up to rounding.
