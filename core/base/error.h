@@ -11,7 +11,7 @@ struct Location {
     std::string file;
     int line = 0;
     int column = 0;
-    std::string pointer = {};  // RFC 6901, into JSON, in place of a line: "/materials/3/name"
+    std::string pointer = {};  // JSON pointer (RFC 6901) in place of a line: "/materials/3/name"
 };
 
 // "file:line:column", leaving out what is unknown, or "file#/materials/3/name".
@@ -24,15 +24,15 @@ public:
     InputError(const Location& place, const std::string& what) : std::runtime_error(to_string(place) + ": " + what) {}
 };
 
-// The value of an option is wrong: "tail 0.1: the series …". `what` follows the option's name, with a value or without it, and
-// the name is spelled by who was asked.
+// The value of an option is wrong: "tail 0.1: the series …". `what` follows the option's name, with a value or without
+// it; the code that reports the error decides how the name is spelled, such as "--tail".
 class OptionError : public InputError {
 public:
     OptionError(const std::string& option, const std::string& what)
         : InputError(option + (what.starts_with(':') || what.starts_with(' ') ? "" : " ") + what) {}
 };
 
-// All that is wrong with a scene is that things in it are not known; a lenient reader takes it without them.
+// All errors of a scene are things in it that are not known; a lenient reader reads it without them.
 class UnknownError : public InputError {
     using InputError::InputError;
 };

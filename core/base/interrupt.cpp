@@ -18,7 +18,7 @@ void on_signal(int number) {
     if (ends_at_once) {
         constexpr std::string_view line = "neumann: interrupted\n";
         [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, line.data(), line.size());
-        ::_exit(1);  // without destructors, which a signal may not call
+        ::_exit(1);  // runs no destructors, which a signal may not call
     }
     caught = true;
     std::signal(number, SIG_DFL);
@@ -26,7 +26,7 @@ void on_signal(int number) {
 
 void handle_signals() {
     for (const int number : signals)
-        // What nohup has had ignored stays so.
+        // A SIGHUP that nohup ignores stays ignored.
         if (std::signal(number, on_signal) == SIG_IGN && number == SIGHUP) std::signal(number, SIG_IGN);
 }
 

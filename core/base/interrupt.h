@@ -3,17 +3,18 @@
 
 namespace neumann {
 
-// One ends the program at once, with exit code 1 and a line: nothing is there yet that could be kept.
+// Makes an interrupt end the program at once, with exit code 1 and a line, because there is nothing yet that could be
+// kept.
 void end_at_interrupts();
-// From here on the first asks for an orderly end, and the second ends the program as usual.
+// From here on the first interrupt asks for an orderly end, and the second ends the program as usual.
 void catch_interrupts();
-// For a process that ends with another one, to which they are sent, too.
+// Ignores interrupts in a process that ends with another one, which receives them as well.
 void ignore_interrupts();
 bool interrupted();
 // Sets the flag directly, for host programs that handle signals themselves, such as Python.
 void set_interrupted(bool now);
 
-// Of a program that catches interrupts: while this lives one ends it at once, as in the beginning.
+// While this lives, an interrupt ends a program that catches interrupts at once.
 class EndsAtInterrupts {
 public:
     EndsAtInterrupts();

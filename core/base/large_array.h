@@ -1,5 +1,5 @@
-// Memory that is soon written from end to end: in huge pages where the system has them, for the faults of small ones take as long
-// as the writing.
+// Memory that is soon written from end to end. It is in huge pages if the system has them, for the faults of small
+// pages take as long as the writing.
 #pragma once
 
 #include <sys/mman.h>
@@ -20,7 +20,7 @@ struct FreeMemory {
 template <class T>
 using LargeArray = std::unique_ptr<T[], FreeMemory>;
 
-// Its values are not set. Throws std::bad_alloc.
+// The values of the array are not set. Throws std::bad_alloc.
 template <class T>
 LargeArray<T> make_large_array(std::size_t size) {
     static_assert(std::is_trivial_v<T>);
@@ -28,11 +28,11 @@ LargeArray<T> make_large_array(std::size_t size) {
     const std::size_t bytes = (size * sizeof(T) + page - 1) / page * page;
     void* const memory = std::aligned_alloc(page, bytes);
     if (!memory) throw std::bad_alloc();
-    madvise(memory, bytes, MADV_HUGEPAGE);  // advice: where it is not taken nothing changes
+    madvise(memory, bytes, MADV_HUGEPAGE);  // a hint, which the system may ignore
     return LargeArray<T>(static_cast<T*>(memory));
 }
 
-// The same for a vector: v.resize(size).
+// Does v.resize(size) with such memory.
 template <class T>
 void resize_large(std::vector<T>& v, std::size_t size) {
     constexpr std::size_t page = 4096;

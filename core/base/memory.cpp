@@ -12,14 +12,14 @@ namespace {
 
 constexpr double no_limit = std::numeric_limits<double>::infinity();
 
-// "max", and a file that is not there, are no limit.
+// "max", and a file that does not exist, are no limit.
 double limit_in(const std::filesystem::path& file) {
     double bytes = no_limit;
     return std::ifstream(file) >> bytes ? bytes : no_limit;
 }
 
-// A group may take no more than those around it. In a container its path is often the host's, and what is seen of the tree begins
-// with the container.
+// A group may use no more than the groups around it. In a container its path is often the host's, and the visible part
+// of the tree begins with the container.
 double limit_of_group(const std::filesystem::path& tree, const std::string& group, const char* file) {
     double least = no_limit;
     for (std::filesystem::path at = group;; at = at.parent_path()) {
@@ -28,7 +28,7 @@ double limit_of_group(const std::filesystem::path& tree, const std::string& grou
     }
 }
 
-// Of cgroups(7), versions 1 and 2: lines as "4:memory:/a/b", "0::/a/b".
+// Reads the groups of cgroups(7), versions 1 and 2: lines such as "4:memory:/a/b", "0::/a/b".
 double limit_of_groups() {
     double least = no_limit;
     std::ifstream groups("/proc/self/cgroup");

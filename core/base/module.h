@@ -1,4 +1,4 @@
-// Parts of the program that are loaded when they are first needed, for the libraries that they bring along.
+// Loads parts of the program when they are first needed, because of the libraries that they bring along.
 #pragma once
 
 #include <string>

@@ -8,7 +8,7 @@
 namespace neumann {
 
 bool restart_peak_memory() {
-    malloc_trim(0);  // what earlier work has freed is not this one's
+    malloc_trim(0);  // memory freed by earlier work does not count for this one
     std::ofstream file("/proc/self/clear_refs");
     return static_cast<bool>(file << "5" << std::flush);
 }

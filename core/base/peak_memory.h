@@ -1,12 +1,12 @@
-// The most memory that this process had at a time: resident, of Linux's /proc.
+// The peak of the resident memory of this process, by Linux's /proc.
 #pragma once
 
 namespace neumann {
 
-// Begins to look for a new maximum, from what is used now. False where the system does not allow that: then the maximum is that of
-// the whole run.
+// Restarts the search for the maximum from what is used now. Returns false if the system does not allow that: then the
+// maximum is that of the whole run.
 bool restart_peak_memory();
-// In bytes; 0 where it is unknown.
+// The peak in bytes; 0 if it is unknown.
 double peak_memory();
 
 }  // namespace neumann

@@ -1,4 +1,4 @@
-// Texts from files, fit for messages.
+// Makes texts from files fit for messages.
 #pragma once
 
 #include <string>
@@ -6,13 +6,13 @@
 
 namespace neumann {
 
-// Printable ASCII and not too long.
+// The text as printable ASCII, cut to a length.
 std::string printable(std::string_view text, std::size_t longest = 40);
-// What stands where something else is expected, a few characters: a file that is none of ours may be anyone's, and is not copied
-// into messages.
+// A few characters of a text where something else is expected: a file of an unknown kind may be anyone's, so it is not
+// copied into messages.
 std::string glimpse_of(std::string_view text);
 
-// "a bitmap", "an integer", "an rgb".
+// The noun with its article: "a bitmap", "an integer", "an rgb".
 std::string with_article(std::string_view noun);
 
 }  // namespace neumann

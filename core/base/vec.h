@@ -20,7 +20,7 @@ inline bool is_grey(const Rgb& c) { return c.r == c.g && c.g == c.b; }
 inline bool is_black(const Rgb& c) { return c.r == 0.0 && c.g == 0.0 && c.b == 0.0; }
 inline bool is_finite(const Rgb& c) { return std::isfinite(c.r) && std::isfinite(c.g) && std::isfinite(c.b); }
 
-// |v|, where the squares of small components vanish too.
+// |v|, accurate also if the squares of small components would vanish.
 inline double length_of(const Vec3& v) {
     const double largest = max_component(glm::abs(v));
     return largest > 0.0 ? largest * glm::length(v / largest) : 0.0;

@@ -1,4 +1,4 @@
-// What was accepted although it is odd, each kind once with a count: "3 degenerate triangles left out".
+// Warnings of what was accepted although it is odd, each kind once with a count: "3 degenerate triangles left out".
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 namespace neumann {
 
 class Warnings {
-    // Line 9 of a file is before line 10.
+    // Orders line 9 of a file before line 10.
     struct InOrder {
         bool operator()(const std::string& a, const std::string& b) const { return strverscmp(a.c_str(), b.c_str()) < 0; }
     };

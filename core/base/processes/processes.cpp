@@ -13,7 +13,8 @@ int number_in(const char* variable) {
     return text == nullptr ? 0 : std::atoi(text);
 }
 
-// What launchers tell the processes that they start: Open MPI, MPICH and its relatives, and Slurm where it starts them by PMIx.
+// Whether a launcher has started several processes, by the variables that Open MPI, MPICH and its relatives, and Slurm
+// (if it starts them by PMIx) set.
 bool was_launched_with_others() {
     return number_in("OMPI_COMM_WORLD_SIZE") > 1 || number_in("PMI_SIZE") > 1 ||
            (std::getenv("PMIX_RANK") != nullptr && number_in("SLURM_STEP_NUM_TASKS") > 1);

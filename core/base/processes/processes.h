@@ -15,18 +15,18 @@ namespace neumann {
 struct Message {
     int from = 0;
     std::string text;
-    std::vector<std::byte> numbers;  // as they were in the memory of the process that sent them
+    std::vector<std::byte> numbers;  // as in the memory of the process that sent them
 };
 
-// Not for several threads at once. Where another process has died, the launcher ends all of them.
+// Must not be used by several threads at once. If another process has died, the launcher ends all of them.
 class Processes {
 public:
     virtual ~Processes() = default;
 
-    // The number of this process, from 0 on, and of all.
+    // The number of this process, from 0 on, and the number of processes.
     virtual int rank() const = 0;
     virtual int size() const = 0;
-    // How many of them run on this machine.
+    // The number of processes on this machine.
     virtual int on_this_machine() const = 0;
     virtual std::string machine() const = 0;
 
@@ -41,9 +41,9 @@ public:
     // What this process has sent and received.
     virtual Traffic traffic() const = 0;
 
-    // What follows is for all processes together: each calls it, and all in the same order.
+    // All processes call each of the following functions together, in the same order.
 
-    // The sum, or the largest, of each value over all processes: the same bits on all.
+    // Replace each value by its sum, or its largest value, over all processes: the same bits on all.
     virtual void sum(std::span<double> values) = 0;
     virtual void largest(std::span<double> values) = 0;
 
@@ -51,15 +51,16 @@ public:
     struct Counts {
         std::vector<int> given, taken;
     };
-    // The counts of an exchange of which each process knows what it gives.
+    // The counts of an exchange, of which each process knows what it gives.
     virtual Counts counts(std::vector<int> given) = 0;
     // Part p of `given` goes to process p, and part p of `taken` comes from there.
     virtual void exchange(std::span<const double> given, std::span<double> taken, const Counts& counts) = 0;
     virtual void exchange(std::span<const std::uint32_t> given, std::span<std::uint32_t> taken, const Counts& counts) = 0;
     virtual void exchange(std::span<const float> given, std::span<float> taken, const Counts& counts) = 0;
-    // Of an array that all have, process p knows the values first[p] … first[p + 1] − 1; afterwards all know all.
+    // Completes an array that all have and of which process p knows the values first[p] … first[p + 1] − 1; afterwards
+    // all know all.
     virtual void complete(std::span<double> values, std::span<const std::size_t> first) = 0;
-    // What process 0 has, to all.
+    // Sends the values of process 0 to all.
     virtual void share(std::span<float> values) = 0;
 };
 

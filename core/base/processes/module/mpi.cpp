@@ -1,4 +1,4 @@
-// All that knows MPI, but for PETSc: a module that is loaded where a launcher has started several processes.
+// The only code that knows MPI, apart from PETSc: a module that is loaded if a launcher has started several processes.
 #include "core/base/error.h"
 #include "core/base/processes/processes.h"
 
@@ -17,7 +17,7 @@ namespace {
 constexpr int frame_tag = 1, text_tag = 2, numbers_tag = 3;
 constexpr std::size_t longest_piece = std::size_t{1} << 30;  // counts are of type int
 
-// MPI's default is to end all processes where one has an error, so that results need no checks.
+// By default MPI ends all processes if one has an error, so results need no checks.
 class MpiProcesses : public Processes {
 public:
     MpiProcesses() {
@@ -154,7 +154,7 @@ private:
         for (; !all.empty(); all = all.subspan(std::min(all.size(), longest_piece)))
             MPI_Send(all.data(), static_cast<int>(std::min(all.size(), longest_piece)), MPI_BYTE, to, tag, all_);
     }
-    // In whatever pieces it comes.
+    // Receives the bytes in whatever pieces they come.
     void receive_all(int from, int tag, std::span<std::byte> all) {
         while (!all.empty()) {
             MPI_Status status;
