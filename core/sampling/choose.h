@@ -3,7 +3,7 @@
 
 namespace neumann {
 
-// True with probability p. Rescales u, so that it is uniform in [0, 1) again in either case.
+// Returns true with probability p. Rescales u, so that it is uniform in [0, 1) again in either case.
 inline bool choose_first(double p, double& u) {
     const bool first = u < p;
     u = first ? u / p : (u - p) / (1.0 - p);

@@ -5,7 +5,7 @@ namespace neumann {
 
 enum class Heuristic { power, balance };
 
-// The weight of a sample with density `a`, where another technique finds it with density `b`: a² / (a² + b²).
+// The weight of a sample with density `a` that another technique finds with density `b`: a² / (a² + b²).
 inline double power_heuristic(double a, double b) {
     const double ratio = b / a;
     return 1.0 / (1.0 + ratio * ratio);

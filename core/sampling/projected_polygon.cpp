@@ -13,7 +13,7 @@ double cross(const Vec2& a, const Vec2& b) { return a.x * b.y - a.y * b.x; }
 // d turned by the angle whose cosine and sine these are.
 Vec2 turned(const Vec2& d, double c, double s) { return {d.x * c - d.y * s, d.x * s + d.y * c}; }
 
-// What is above z = 0 (Sutherland and Hodgman 1974). Returns the number of corners.
+// Clips the polygon to z > 0 (Sutherland and Hodgman 1974). Returns the number of corners.
 std::size_t clip(std::span<const Vec3> polygon, std::span<Vec3> above) {
     std::size_t count = 0;
     for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -96,7 +96,7 @@ Vec2 ProjectedPolygon::end_between(const Edge& outer, const Edge& inner, const V
         const double missing = share * area - (outer.sector(a, d) - inner.sector(a, d));
         (missing > 0.0 ? low : high) = angle;
         const double step = 2.0 * missing / (inner.height2(d) - outer.height2(d));
-        // At a corner both heights are the same, and the step is no number.
+        // At a corner both heights are the same, and the step is not a number.
         const double next = angle + step;
         angle = next >= low && next <= high ? next : 0.5 * (low + high);
         // The error after a step is about its square.

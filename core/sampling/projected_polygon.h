@@ -1,6 +1,7 @@
-// Projected solid angle of a polygon at a point of a surface, ∫ cosθ dω over what is above the horizon, and directions in
-// proportion to cosθ. On the unit disk, where cosθ dω is area, a polygon's edges are arcs of ellipses around the center: Lambert,
-// Photometria, 1760; Peters, BRDF Importance Sampling for Polygonal Lights, 2021, whose sectors these are.
+// The projected solid angle of a polygon at a point of a surface, ∫ cosθ dω over what is above the horizon, and
+// directions in proportion to cosθ. On the unit disk, where cosθ dω is area, a polygon's edges are arcs of ellipses
+// around the center: Lambert, Photometria, 1760. Sectors are those of Peters, BRDF Importance Sampling for Polygonal
+// Lights, 2021.
 #pragma once
 
 #include "core/base/frame.h"
@@ -14,13 +15,14 @@ namespace neumann {
 
 class ProjectedPolygon {
 public:
-    // A convex polygon of 3 or 4 corners, seen from the origin, where a surface has this normal. Its plane misses the origin by
-    // more than rounding: seen from its own plane it is nothing or half of the sky, as its corners happen to be rounded.
+    // A convex polygon of 3 or 4 corners, seen from the origin, where a surface has this normal. Its plane must miss
+    // the origin by more than rounding: from its own plane the polygon covers nothing or half of the sky, as its
+    // corners happen to be rounded.
     ProjectedPolygon(std::span<const Vec3> corners, const Vec3& normal);
 
-    // At most π; 0 if the polygon is below the horizon. The absolute error is about 10⁻¹⁵.
+    // The projected solid angle, at most π; 0 if the polygon is below the horizon. The absolute error is about 10⁻¹⁵.
     double area() const { return area_; }
-    // A direction, of unit length. area() > 0.
+    // Samples a direction of unit length; area() must be positive.
     Vec3 sample(const Vec2& u) const;
     // The density of a direction in the polygon, per solid angle: cosθ / area().
     double pdf(const Vec3& w) const { return std::max(glm::dot(frame_.n, w), 0.0) / area_; }

@@ -16,7 +16,8 @@ constexpr std::uint32_t order_block = 0x40000000u, beyond_block = 0x80000000u;  
 
 }  // namespace
 
-// Some groups of dimensions, each of 2^log2_size samples: paths that advance together are seldom further apart.
+// The scrambled points of some groups of dimensions, each of 2^log2_size samples: paths that advance together are
+// seldom further apart.
 struct Sampler::Scrambled {
     static constexpr std::size_t places = 8;
     struct Part {

@@ -20,9 +20,9 @@ enum class SamplerKind { independent, sobol };
 // thread.
 class Sampler {
 public:
-    // Independent numbers.
+    // Makes independent numbers.
     Sampler(std::uint64_t seed, std::uint32_t pixel) : seed_(seed), pixel_(pixel) {}
-    // Sobol' points; a reference is kept to them.
+    // Makes Sobol' points; keeps a reference to them.
     Sampler(const SobolPoints& points, std::uint64_t seed, std::uint32_t pixel);
     Sampler(SamplerKind kind, const SobolPoints& points, std::uint64_t seed, std::uint32_t pixel)
         : Sampler(kind == SamplerKind::sobol ? Sampler(points, seed, pixel) : Sampler(seed, pixel)) {}

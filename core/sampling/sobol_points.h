@@ -9,20 +9,20 @@
 
 namespace neumann {
 
-// With reversed bits; shared by all pixels.
+// The points are held with reversed bits and shared by all pixels.
 class SobolPoints {
 public:
     static constexpr std::uint32_t dimensions = 4, log2_largest_part = 6;
     using Numbers = std::array<std::uint32_t, dimensions>;
 
-    // `size`: a power of two.
+    // `size` must be a power of two.
     explicit SobolPoints(std::uint32_t size);
 
     std::uint32_t size() const { return size_; }
     std::uint32_t log2_size() const { return log2_size_; }
 
-    // The points in another order and scrambled, by nested permutations of the indices (`order`) and of the coordinates (`seeds`).
-    // Of these, those from `first` on are written, at most 2^log2_largest_part.
+    // Writes points in another order and scrambled, by nested permutations of the indices (`order`) and of the
+    // coordinates (`seeds`): those from `first` on, at most 2^log2_largest_part.
     void scramble(std::uint32_t order, const Numbers& seeds, std::uint32_t first, std::span<Numbers> numbers) const;
 
 private:

@@ -11,10 +11,11 @@ class SphericalRectangle {
 public:
     SphericalRectangle(const Vec3& corner, const Vec3& a, const Vec3& b);
 
-    // 0 if it is seen edge-on. The absolute error is about 10⁻¹⁵, or 10⁻¹⁶ divided by the distance to its plane if that is small,
-    // which is the effect of rounding the corner.
+    // The solid angle; 0 if the rectangle is seen edge-on. The absolute error is about 10⁻¹⁵, or 10⁻¹⁶ divided by the
+    // distance to its plane if that is small, which is the effect of rounding the corner.
     double solid_angle() const { return solid_angle_; }
-    // A point of the rectangle; its direction has the pdf 1/solid_angle() per solid angle. solid_angle() > 0.
+    // Samples a point of the rectangle; its direction has the pdf 1/solid_angle() per solid angle. solid_angle() must
+    // be positive.
     Vec3 sample(const Vec2& u) const;
 
 private:

@@ -29,7 +29,7 @@ Vec3 sample_spherical_triangle(const Vec3& a, const Vec3& b, const Vec3& c, doub
                  p = t - cos_alpha, r = s + sin_alpha * cos_side, denominator = (r * s + p * t) * sin_alpha;
     const double q = denominator != 0.0 ? std::clamp(((r * t - p * s) * cos_alpha - r) / denominator, -1.0, 1.0) : 1.0;
     const Vec3 on_side = A * q + to_c * std::sqrt(1.0 - q * q);
-    // Then a point between that one and B.
+    // The sample is a point between that one and B.
     const double z = 1.0 - u.y * (1.0 - glm::dot(on_side, B));
     return B * z + tangent(B, on_side) * std::sqrt(std::max(1.0 - z * z, 0.0));
 }

@@ -21,7 +21,7 @@ inline void sin_cos_quarter(double phi, double& sine, double& cosine) {
         (1.0 - x * 0.5) + x2 * (1.0 / 24 - x * (1.0 / 720)) + x4 * ((1.0 / 40320 - x * (1.0 / 3628800)) + x2 * (1.0 / 479001600.0));
 }
 
-// (cos, sin) of 2πu, u ∈ [0, 1). Without branches, which would be mispredicted every other time.
+// (cos, sin) of 2πu, u ∈ [0, 1), without branches, which would be mispredicted every other time.
 inline Vec2 direction_on_circle(double u) {
     const int quadrant = static_cast<int>(4.0 * u + 0.5);
     double sin_cos[2];
@@ -37,7 +37,8 @@ inline double part_of_circle(double x, double y) {
     return u < 0.0 ? u + 1.0 : u;
 }
 
-// Uniform on the unit disc, concentric squares to circles: Shirley and Chiu, A Low Distortion Map Between Disk and Square, 1997.
+// A uniform point of the unit disc, by mapping concentric squares to circles: Shirley and Chiu, A Low Distortion Map
+// Between Disk and Square, 1997.
 inline Vec2 uniform_disk(const Vec2& u) {
     const double a = 2.0 * u.x - 1.0, b = 2.0 * u.y - 1.0;
     const bool flat = std::abs(a) > std::abs(b);
@@ -57,22 +58,22 @@ inline Vec2 square_of_disk(const Vec2& p) {
     return (flat ? Vec2(radius, other) : Vec2(other, radius)) * 0.5 + 0.5;
 }
 
-// pdf cosθ/π per solid angle, about +z: Malley's disc. cosθ > 0 for 0 < u < 1.
+// The pdf is cosθ/π per solid angle, about +z: Malley's disc. cosθ > 0 for 0 < u < 1.
 inline Vec3 cosine_hemisphere(const Vec2& u) {
     const double radius = std::max(std::abs(2.0 * u.x - 1.0), std::abs(2.0 * u.y - 1.0));
     return Vec3(uniform_disk(u), std::sqrt(1.0 - radius * radius));
 }
 
-// pdf 1/(2π) per solid angle, about +z: Archimedes' z, uniform.
+// The pdf is 1/(2π) per solid angle, about +z: Archimedes' z, uniform.
 inline Vec3 uniform_hemisphere(const Vec2& u) { return Vec3(direction_on_circle(u.y) * std::sqrt(u.x * (2.0 - u.x)), 1.0 - u.x); }
 
-// pdf 1/(2π (1 − cosα)) per solid angle, within the angle α of +z.
+// The pdf is 1/(2π (1 − cosα)) per solid angle, within the angle α of +z.
 inline Vec3 uniform_cone(const Vec2& u, double cos_alpha) {
     const double z = 1.0 - u.x * (1.0 - cos_alpha);
     return Vec3(direction_on_circle(u.y) * std::sqrt((1.0 - z) * (1.0 + z)), z);
 }
 
-// pdf 1/(4π) per solid angle.
+// The pdf is 1/(4π) per solid angle.
 inline Vec3 uniform_sphere(const Vec2& u) {
     return Vec3(direction_on_circle(u.y) * (2.0 * std::sqrt(u.x * (1.0 - u.x))), 1.0 - 2.0 * u.x);
 }
