@@ -34,10 +34,10 @@ enum class LightChoice {
     mixed,    // half by power, half uniformly; the environment with probability 1/2 at most if there are other lights
     uniform,  // all with equal probability
     power,    // in proportion to power, computed with the largest radiance
-    // in proportion to the unoccluded contribution to the point, radiance times solid angle; takes time linear in the
-    // number of parts of lights
+    // In proportion to the unoccluded contribution to the point, radiance times solid angle; takes time linear in the
+    // number of parts of lights.
     contribution,
-    // about as `contribution`, by bounds of groups of lights; takes time logarithmic in the number of parts
+    // About as `contribution`, by bounds of groups of lights; takes time logarithmic in the number of parts.
     tree,
     all  // every light once
 };
