@@ -9,7 +9,7 @@ namespace neumann::reader {
 
 namespace {
 
-// The matrix of cofactors maps a × b to m a × m b, also if m has no inverse.
+// The matrix of cofactors maps a × b to (m a) × (m b), also if m has no inverse.
 glm::dmat3 cofactors(const glm::dmat3& m) { return {glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1])}; }
 
 Vec3 unit(const Vec3& v) {

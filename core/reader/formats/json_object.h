@@ -107,7 +107,7 @@ public:
     void finish();
 
 private:
-    // The property, or null if it is missing or, which is a problem, of another kind.
+    // The property, or null if it is missing, or (with a problem) of another kind.
     const nlohmann::json* find(const std::string& name, bool (nlohmann::json::*is)() const noexcept, const char* kind);
 
     const nlohmann::json* value_;

@@ -55,7 +55,7 @@ private:
 
     const Element* slot(const std::string& tag) const { return child(*shader_, tag); }
 
-    // The value of <emission> or the like; nothing if it is missing or, which is reported, wrong.
+    // The value of <emission> or the like; nothing if it is missing, or (with a report) wrong.
     std::optional<Value> value(const std::string& tag) {
         const Element* e = slot(tag);
         if (!e) return std::nullopt;

@@ -24,7 +24,7 @@ public:
     Textures(JsonObject& root, const Pictures& pictures)
         : textures_(root.list("textures")), samplers_(root.list("samplers")), images_(pictures.list()) {}
 
-    // The texture of a property, or nothing if it is missing or, which is reported, wrong.
+    // The texture of a property, or nothing if it is missing, or (with a report) wrong.
     std::optional<Texture> read(JsonObject& parent, const std::string& name) const;
 
 private:

@@ -1,4 +1,4 @@
-// State that the parts of the importer share.
+// The state that the parts of the importer share.
 #pragma once
 
 #include "core/base/warnings.h"

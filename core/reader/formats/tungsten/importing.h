@@ -1,4 +1,4 @@
-// State that the parts of the importer share.
+// The state that the parts of the importer share.
 #pragma once
 
 #include "core/reader/formats/json_object.h"
@@ -24,7 +24,7 @@ struct Importing {
     }
 };
 
-// The path of the file that a property names; nothing if that is missing or, which is a problem, not found.
+// The path of the file that a property names; nothing if that is missing, or (with a problem) not found.
 std::optional<std::string> find_named_file(JsonObject& object, const std::string& name, const Importing& importing);
 
 // Reads a vector: three numbers, or one for all three.

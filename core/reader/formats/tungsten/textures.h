@@ -31,7 +31,7 @@ class Textures {
 public:
     explicit Textures(Importing& importing) : importing_(importing) {}
 
-    // These return nothing if the property is missing or, which is a problem, wrong. Numbers are the mean of a
+    // These return nothing if the property is missing, or (with a problem) wrong. Numbers are the mean of a
     // picture's channels, and an opacity is its alpha.
     std::optional<TextureValue> find_color(JsonObject& object, const std::string& name) { return find(object, name, Kind::color); }
     std::optional<TextureValue> find_number(JsonObject& object, const std::string& name) { return find(object, name, Kind::mean); }
