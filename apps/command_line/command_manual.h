@@ -1,5 +1,4 @@
-// The manual pages of the commands: name, synopsis and options from the parser's definitions, the rest from
-// apps/manual.
+// The manual pages of the commands: name, synopsis and options from the parser's definitions, the rest from apps/manual.
 #pragma once
 
 #include "apps/manual/manual_page.h"

@@ -8,8 +8,7 @@
 
 namespace neumann {
 
-// "--sp: render has no such option; did you mean '--spp'?", for the options among these arguments; "" if there are
-// none.
+// "--sp: render has no such option; did you mean '--spp'?", for the options among these arguments; "" if there are none.
 std::string about_unknown_options(const CLI::App& app, const std::vector<std::string>& unexpected);
 
 }  // namespace neumann

@@ -1,5 +1,4 @@
-// Code shared by the commands that treat a scene as matrices: options, and construction of space, table, R and
-// channels.
+// Code shared by the commands that treat a scene as matrices: options, and construction of space, table, R and channels.
 #pragma once
 
 #include "apps/requests/patch_request.h"

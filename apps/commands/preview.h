@@ -17,8 +17,7 @@ public:
     // Keeps a reference to the folder. `kind` is appended to labels, such as ", lenient".
     Preview(OutputFolder& folder, std::string kind) : folder_(folder), kind_(std::move(kind)) {}
 
-    // A function for Watch::show. It skips calls that come too soon, to take little time, and ignores failures to
-    // write.
+    // A function for Watch::show. It skips calls that come too soon, to take little time, and ignores failures to write.
     void show(std::size_t bounces, const std::function<Image(std::size_t)>& term);
     // May be called from any thread.
     bool is_there() const { return is_there_; }

@@ -33,8 +33,7 @@ constexpr seconds without_news{1}, patience{30}, open_for{3};
 constexpr std::chrono::milliseconds before_again{200};
 constexpr std::size_t most_pages = 64, longest_header = 16384;
 
-// Whether the request names this machine. Another name may point here only so that a browser reads the page for its
-// owner.
+// Whether the request names this machine. Another name may point here only so that a browser reads the page for its owner.
 bool is_this_machine(std::string_view host) {
     if (host.starts_with('[')) return host.starts_with("[::1]");
     host = host.substr(0, host.find(':'));

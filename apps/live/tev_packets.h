@@ -1,6 +1,5 @@
-// Packets of tev, a picture viewer (https://github.com/Tom94/tev, include/tev/Ipc.h): the length in bytes, which
-// includes its own four, a byte for the operation, and then its values one after the other; texts end with a zero byte,
-// numbers are little-endian.
+// Packets of tev, a picture viewer (https://github.com/Tom94/tev, include/tev/Ipc.h): the length in bytes, which includes its own
+// four, a byte for the operation, and then its values one after the other; texts end with a zero byte, numbers are little-endian.
 #pragma once
 
 #include "core/image/image.h"

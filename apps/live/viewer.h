@@ -15,8 +15,7 @@ public:
     virtual void see(const Rendering& so_far) = 0;
 };
 
-// Limits work beside a render to a small part of its time: after each piece nothing is due for `rest` times its
-// duration.
+// Limits work beside a render to a small part of its time: after each piece nothing is due for `rest` times its duration.
 class SmallShare {
 public:
     using Clock = std::chrono::steady_clock;

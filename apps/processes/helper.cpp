@@ -27,8 +27,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// The interval at which messages are looked for, which takes time from the thread that samples. It has the next share
-// by then.
+// The interval at which messages are looked for, which takes time from the thread that samples. It has the next share by then.
 constexpr std::chrono::milliseconds moment(2);
 
 class Helper {

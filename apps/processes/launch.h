@@ -1,5 +1,4 @@
-// The processes of this program that were started together: the first one executes the command line, the others help
-// it.
+// The processes of this program that were started together: the first one executes the command line, the others help it.
 #pragma once
 
 #include "apps/processes/scene_on_disk.h"

@@ -36,8 +36,7 @@ std::size_t edits(std::string_view a, std::string_view b) {
 std::string did_you_mean(std::string_view given, std::span<const std::string> known) {
     constexpr std::size_t longest = 64;
     if (given.size() > longest) return "";
-    // A match may have one edit, and another for every four characters, but none if names are so short that any would
-    // do.
+    // A match may have one edit, and another for every four characters, but none if names are so short that any would do.
     std::size_t best = given.size() < 3 ? 1 : std::max<std::size_t>(2, given.size() / 4 + 1);
     const std::string* closest = nullptr;
     for (const std::string& name : known)

@@ -23,8 +23,7 @@ std::string beginning_of(std::istream& file) {
     return {bytes.data(), static_cast<std::size_t>(file.gcount())};
 }
 
-// The size of the file for which a Git LFS pointer stands, by the specification of Git LFS; nothing if the text is no
-// pointer.
+// The size of the file for which a Git LFS pointer stands, by the specification of Git LFS; nothing if the text is no pointer.
 std::optional<std::uint64_t> size_of_pointed(std::string_view beginning) {
     constexpr std::string_view first = "version https://git-lfs.github.com/spec/", size = "\nsize ";
     if (!beginning.starts_with(first)) return std::nullopt;

@@ -3,8 +3,7 @@
 
 namespace neumann {
 
-// Makes an interrupt end the program at once, with exit code 1 and a line, because there is nothing yet that could be
-// kept.
+// Makes an interrupt end the program at once, with exit code 1 and a line, because there is nothing yet that could be kept.
 void end_at_interrupts();
 // From here on the first interrupt asks for an orderly end, and the second ends the program as usual.
 void catch_interrupts();

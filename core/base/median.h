@@ -8,8 +8,7 @@
 
 namespace neumann {
 
-// The median of some numbers; the larger of the middle two if their count is even. `values` is reordered and must not
-// be empty.
+// The median of some numbers; the larger of the middle two if their count is even. `values` is reordered and must not be empty.
 inline double median(std::vector<double>& values) {
     const auto half = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
     std::nth_element(values.begin(), half, values.end());

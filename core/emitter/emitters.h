@@ -79,8 +79,7 @@ public:
     // The density with which emission towards x along w is sampled: per area perpendicular to w at x and, for an environment, per
     // solid angle of w.
     double distant_density(std::size_t index, const Vec3& x, const Vec3& w) const;
-    // The position of a light without extent; nothing for the environment, and for lights that shine from afar or along
-    // a normal.
+    // The position of a light without extent; nothing for the environment, and for lights that shine from afar or along a normal.
     std::optional<Vec3> position_of_distant(std::size_t index) const;
     // The irradiance on a surface at x that faces the light, mean of the channels.
     double distant_irradiance(std::size_t index, const Vec3& x) const;

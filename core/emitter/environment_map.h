@@ -21,8 +21,7 @@ namespace neumann {
 
 class EnvironmentMap {
 public:
-    // `image` must be finite, not negative, and at least 2×3. `to_world` must consist of rotations and reflections, up
-    // to rounding.
+    // `image` must be finite, not negative, and at least 2×3. `to_world` must consist of rotations and reflections, up to rounding.
     EnvironmentMap(Image image, double scale, const Mat4& to_world);
 
     Rgb radiance(const Vec3& w) const;

@@ -42,8 +42,7 @@ Vec3 center_of(const Disk& disk) { return disk.center; }
 Vec3 center_of(const Cylinder& cylinder) { return cylinder.center(); }
 Vec3 center_of(const MeshInstance& instance) { return instance.bounds().center(); }
 
-// The irradiance at distance 1 of a point that shines in all directions, or of a round body, over its power divided by
-// π.
+// The irradiance at distance 1 of a point that shines in all directions, or of a round body, over its power divided by π.
 constexpr double of_all_sides = 0.25;
 
 }  // namespace

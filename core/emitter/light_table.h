@@ -60,8 +60,7 @@ public:
 
 private:
     Choice choose(double u, std::size_t first, std::size_t end) const {
-        // If there are few entries, all are compared: a search branches by which one is found, and that cannot be
-        // predicted.
+        // If there are few entries, all are compared: a search branches by which one is found, and that cannot be predicted.
         constexpr std::size_t few = 8;
         const double* const sums = cumulative_.data();
         std::size_t found = first;

@@ -47,8 +47,7 @@ SpectrumTable sun_spectrum(double turbidity, double elevation) {
     constexpr double ozone_depth = 0.35, water_depth = 2.0;  // cm
 
     SpectrumTable spectrum;
-    // The spectrum is sampled every 5 nm, as the tables of the colour-matching functions are. Mixed gases absorb above
-    // 759 nm only.
+    // The spectrum is sampled every 5 nm, as the tables of the colour-matching functions are. Mixed gases absorb above 759 nm only.
     for (int i = 0; i <= 74; ++i) {
         const double wavelength = 380.0 + 5.0 * i, micrometres = wavelength / 1000.0;
         const double light = 0.5 * (above_the_atmosphere[i / 2] + above_the_atmosphere[(i + 1) / 2]);

@@ -39,8 +39,7 @@ struct Passing {
     bool is_close() const { return std::abs(distance) <= DoubleFaces::unsure * rounding; }
 };
 
-// `inner` is a place on the edge's inner side. If a ray is nearly parallel to the edge, it is hard to tell on which
-// side it is.
+// `inner` is a place on the edge's inner side. If a ray is nearly parallel to the edge, it is hard to tell on which side it is.
 Passing pass(const Vec3& p, const Vec3& direction, const Vec3& on_edge, const Vec3& along, const Vec3& inner, double rounding) {
     const Vec3 n = glm::cross(along, direction);
     const double length = glm::length(n);

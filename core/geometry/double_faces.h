@@ -31,8 +31,7 @@ private:
 
 class DoubleFaces {
 public:
-    // Geometry's arrays by shape, which must outlive this object: the triangles of meshes, and the errors of other
-    // shapes.
+    // Geometry's arrays by shape, which must outlive this object: the triangles of meshes, and the errors of other shapes.
     DoubleFaces(const std::vector<Shape>& shapes, std::span<const std::vector<Triangle>> triangles, std::span<const double> errors)
         : shapes_(&shapes), triangles_(triangles), errors_(errors) {}
 

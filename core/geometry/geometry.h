@@ -90,9 +90,8 @@ public:
         }
         return found;
     }
-    // Finds hits as first_hits() does, for estimates to which it does not matter which of two surfaces is met if they
-    // are closer together than floats resolve: what is near is not looked for. `from` may give bare points, and the
-    // hits are bare.
+    // Finds hits as first_hits() does, for estimates to which it does not matter which of two surfaces is met if they are closer
+    // together than floats resolve: what is near is not looked for. `from` may give bare points, and the hits are bare.
     template <class FromAt, class HitAt>
     std::uint32_t rough_hits(std::size_t n, const FromAt& from, const HitAt& hit) const {
         if (!giants_.empty()) return first_hits(n, from, hit);
@@ -243,8 +242,7 @@ private:
     void look_around(SurfacePoint& p, const StartedRay* ray) const;
     // Moves p to a face close to it that is hit first, if there is one. Returns false if the ray misses p's own face.
     bool settle(const RayStart& start, const Vec3& direction, SurfacePoint& p) const;
-    // The first hit after that, with the close faces in double and all others by Embree, whose ray starts at
-    // `embree_start`.
+    // The first hit after that, with the close faces in double and all others by Embree, whose ray starts at `embree_start`.
     bool first_hit_past(const RayStart& start, const Vec3& embree_start, const Vec3& direction, double distance,
                         std::vector<Face> faces, SurfacePoint& hit) const;
     SurfacePoint bare_point_on(const Face& face, const Vec3& position) const;

@@ -42,9 +42,8 @@ public:
     // Whether Embree's ray, whose origin is displaced by rounding, may have hit p's face in place of another one; if
     // not, p is not close. `cosine` is between the ray and p's normal.
     bool may_hide(const SurfacePoint& p, double cosine) const;
-    // If p, hit by this ray, lies on faces that cross its own, within rounding, moves it along its own face to the side
-    // of them from which the ray came, so that rays know on which side of them they start. Without a ray, p stays on
-    // the side where it is.
+    // If p, hit by this ray, lies on faces that cross its own, within rounding, moves it along its own face to the side of them
+    // from which the ray came, so that rays know on which side of them they start. Without a ray, p stays on the side where it is.
     void part(SurfacePoint& p, const StartedRay* ray) const;
     // The faces within rounding of p, including its own, in order.
     std::vector<Face> around(const SurfacePoint& p) const;
@@ -53,8 +52,7 @@ public:
         Face face;
         double distance;
     };
-    // The first of the faces that a ray hits, without those behind the face on which it starts. `direction` has unit
-    // length.
+    // The first of the faces that a ray hits, without those behind the face on which it starts. `direction` has unit length.
     std::optional<Met> first(std::span<const Face> faces, const RayStart& start, const Vec3& direction) const;
     // Whether one of the faces lies strictly between x and y.
     bool any_between(std::span<const Face> faces, const SurfacePoint& x, const SurfacePoint& y) const;

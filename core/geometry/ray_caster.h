@@ -18,9 +18,8 @@ namespace neumann {
 
 class RayCaster {
 public:
-    // Coordinates are moved by −center and multiplied by `scale` for Embree. Triangles without extent must have been
-    // removed; other shapes without extent, and the sorted faces `without`, are left out. The shapes must outlive the
-    // caster.
+    // Coordinates are moved by −center and multiplied by `scale` for Embree. Triangles without extent must have been removed; other
+    // shapes without extent, and the sorted faces `without`, are left out. The shapes must outlive the caster.
     RayCaster(const std::vector<Shape>& shapes, std::span<const Face> without, const Vec3& center, double scale);
     ~RayCaster();
 

@@ -1,6 +1,5 @@
-// Points on spheres, discs and cylinders, in double. `error` is the rounding error of the shape. Points keep this
-// distance from rims, as hits on triangles do from edges, so that rounding cannot move them past a surface that touches
-// the rim.
+// Points on spheres, discs and cylinders, in double. `error` is the rounding error of the shape. Points keep this distance from
+// rims, as hits on triangles do from edges, so that rounding cannot move them past a surface that touches the rim.
 #pragma once
 
 #include "core/geometry/shape.h"

@@ -13,8 +13,7 @@ struct ShadingPoint : SurfacePoint {
     Frame frame{Vec3(0.0, 0.0, 1.0)};  // z: the shading normal; x: along dp_du if there are coordinates
 };
 
-// The unit normal on the front side: interpolated if a mesh has vertex normals, and otherwise geometric. `p` lies on
-// `shape`.
+// The unit normal on the front side: interpolated if a mesh has vertex normals, and otherwise geometric. `p` lies on `shape`.
 Vec3 shading_normal(const Shape& shape, const SurfacePoint& p);
 
 // The shading point on the front side. `p` lies on `shape`, which must outlive the result.
@@ -23,10 +22,9 @@ ShadingPoint shading_point(const Shape& shape, const SurfacePoint& p);
 // A shading point that has texture coordinates only.
 ShadingPoint point_with_coordinates(const Vec2& uv);
 
-// Texture coordinates as Mitsuba's: on a sphere, u around its axis and v from pole to pole; on a disc, u from the
-// centre to the rim and v around it; on a cylinder, u around it and v along it; on a mesh, those of its vertices, or
-// the weights of the second and third vertex. They are computed on demand: few materials need them, and on round shapes
-// they cost as much as a bounce.
+// Texture coordinates as Mitsuba's: on a sphere, u around its axis and v from pole to pole; on a disc, u from the centre to the rim
+// and v around it; on a cylinder, u around it and v along it; on a mesh, those of its vertices, or the weights of the second and
+// third vertex. They are computed on demand: few materials need them, and on round shapes they cost as much as a bounce.
 Vec2 texture_coordinates(const ShadingPoint& p);
 
 // Partial derivatives of the position by u and v, in scene units; x and y of the frame if they are undefined.

@@ -32,8 +32,7 @@ struct Disk {
     }
 };
 
-// The lateral surface around base + s·axis, 0 ≤ s ≤ length, open at both ends. The front is outside, or inside when
-// flipped.
+// The lateral surface around base + s·axis, 0 ≤ s ≤ length, open at both ends. The front is outside, or inside when flipped.
 struct Cylinder {
     Vec3 base{0.0}, axis{0.0, 0.0, 1.0};  // axis: unit length
     double length = 1.0, radius = 1.0;
@@ -53,8 +52,7 @@ const TriangleMesh* mesh_of(const Shape& shape);
 // The corners of a triangle of a mesh or an instance.
 TriangleCorners corners_of(const Shape& shape, std::uint32_t triangle);
 
-// Whether a shape has extent; for a mesh, whether it has triangles. Triangles without area must have been removed
-// before.
+// Whether a shape has extent; for a mesh, whether it has triangles. Triangles without area must have been removed before.
 bool has_extent(const Shape& shape);
 // The bounding box; that of an instance may be larger than necessary.
 Bounds bounds_of(const Shape& shape);

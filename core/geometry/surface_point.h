@@ -16,8 +16,7 @@ struct SurfacePoint {
     double error = 0.0;       // rays start this far along ±normal: the rounding error of the hit, scene units
     std::uint32_t shape = 0;  // index into Geometry::shapes()
     std::uint32_t primitive : 31 = 0;
-    // Whether other surfaces are within rounding; rays then start at `position` and are intersected with them in
-    // double.
+    // Whether other surfaces are within rounding; rays then start at `position` and are intersected with them in double.
     bool close : 1 = false;
 
     bool is_infinite() const { return shape == infinity; }

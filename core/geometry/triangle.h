@@ -64,9 +64,8 @@ public:
     }
     Vec3 near(const Meeting& m, float embree_u, float embree_v, const Edges& edges) const;
 
-    // These say where another surface may be within rounding: in strips along the edges, where one barycentric weight
-    // is small; in corners, where two are; and in cells. Neighbours computes them when they are first needed, and keeps
-    // the cells.
+    // These say where another surface may be within rounding: in strips along the edges, where one barycentric weight is small; in
+    // corners, where two are; and in cells. Neighbours computes them when they are first needed, and keeps the cells.
     static constexpr double grazing = 0.1;  // rays with a smaller cosine are never clear if there are cells
     // Whether a hit is clear. `cosine` is that of the ray with the normal: the distance to the edges must also cover
     // the displacement of Embree's ray, which grows for grazing rays.

@@ -11,8 +11,7 @@
 
 namespace neumann {
 
-// Colours that a file assigns to the vertices or triangles of a mesh ("vertex_color", "face_color"), in float as in
-// files.
+// Colours that a file assigns to the vertices or triangles of a mesh ("vertex_color", "face_color"), in float as in files.
 struct MeshAttribute {
     std::string name;
     bool of_triangles = false;

@@ -17,8 +17,7 @@
 
 namespace neumann {
 
-// Loads the module that writes pictures, which the functions otherwise load when first called. Throws RunError if it is
-// missing.
+// Loads the module that writes pictures, which the functions otherwise load when first called. Throws RunError if it is missing.
 void expect_pictures();
 
 // The entries of an EXR header beside the picture: "neumann:bounce" and the like. Whole numbers beyond 32 bits, which
@@ -37,16 +36,14 @@ std::string encode_png(const DisplayImage& picture, const std::string& comment =
 // A GIF file of 256 colours of its own, dithered (indexed_image.h): a frame for join_gif_frames().
 std::string encode_gif(const DisplayImage& picture);
 
-// Reads a picture (OpenEXR, PNG, JPEG, TIFF, Radiance HDR, PNM, PFM, BMP, TGA) with the values in the file (8-bit ones
-// scaled to 0..1, not linearised; NaN and infinity kept), and into `attributes`, if given, the numbers and texts of its
-// header. Without stderr channels `standard_error` is empty (0×0), and so is `discretisation`; if there is a spread,
-// `least_error` is the stderr. Throws InputError, which begins with the path: no such file, not a picture, damaged, no
-// channels R, G, B.
+// Reads a picture (OpenEXR, PNG, JPEG, TIFF, Radiance HDR, PNM, PFM, BMP, TGA) with the values in the file (8-bit ones scaled to
+// 0..1, not linearised; NaN and infinity kept), and into `attributes`, if given, the numbers and texts of its header. Without
+// stderr channels `standard_error` is empty (0×0), and so is `discretisation`; if there is a spread, `least_error` is the stderr.
+// Throws InputError, which begins with the path: no such file, not a picture, damaged, no channels R, G, B.
 PixelEstimate read_exr(const std::string& path, Attributes* attributes = nullptr);
 
-// Reads a picture as a texture: channels R, G, B if there are any of these names, otherwise the first three, or the
-// first if there are fewer. Throws InputError, which begins with the path: no such file, not a picture, damaged, a
-// value that is not finite.
+// Reads a picture as a texture: channels R, G, B if there are any of these names, otherwise the first three, or the first if there
+// are fewer. Throws InputError, which begins with the path: no such file, not a picture, damaged, a value that is not finite.
 Texels read_texels(const std::string& path);
 
 // The same for the bytes of a file, but with all its channels, up to four: grey, grey and alpha, RGB, or RGB and alpha,
@@ -62,8 +59,7 @@ std::vector<std::string> layers_in(const std::string& path);
 // Reads one of these layers, with three channels or one.
 Texels read_layer(const std::string& path, const std::string& name);
 
-// The path of the font for labels (DejaVu Sans; Debian's fonts-dejavu-core), if it is installed and text can be drawn
-// at all.
+// The path of the font for labels (DejaVu Sans; Debian's fonts-dejavu-core), if it is installed and text can be drawn at all.
 std::optional<std::string> find_label_font();
 
 // The width of a text in pixels.

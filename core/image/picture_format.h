@@ -13,9 +13,8 @@ namespace neumann {
 // readers it has, some of which abort the program over bytes that are not theirs.
 std::string find_picture_format(std::istream& file, std::string_view name);
 
-// Throws InputError, which begins with the name, if a chunk of a PNG or an attribute of an OpenEXR file ends beyond the
-// file: libpng and OpenEXR allocate as much memory as its length says, up to 2 GiB, before they check that so much is
-// there.
+// Throws InputError, which begins with the name, if a chunk of a PNG or an attribute of an OpenEXR file ends beyond the file:
+// libpng and OpenEXR allocate as much memory as its length says, up to 2 GiB, before they check that so much is there.
 void expect_parts_within_file(std::istream& file, std::string_view name, const std::string& format);
 
 }  // namespace neumann

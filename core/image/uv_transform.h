@@ -10,8 +10,7 @@ public:
     explicit UvTransform(const Mat4& m) : u_(m[0][0], m[0][1]), v_(m[1][0], m[1][1]), origin_(m[3][0], m[3][1]) {}
 
     Vec2 operator()(const Vec2& uv) const { return u_ * uv.x + v_ * uv.y + origin_; }
-    // The derivatives by u and v of a function of the transformed coordinates; `s` are those by the transformed
-    // coordinates.
+    // The derivatives by u and v of a function of the transformed coordinates; `s` are those by the transformed coordinates.
     Vec2 slope(const Vec2& s) const { return {glm::dot(u_, s), glm::dot(v_, s)}; }
 
 private:

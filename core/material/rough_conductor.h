@@ -39,8 +39,7 @@ public:
         const Vec3 m = glm::normalize(wo + wi);
         return reflectance_(p) * fresnel_(glm::dot(wo, m)) * (facets.density(m) / (4.0 * area(facets, wo, wi)));
     }
-    // The pdf is normalised over the whole sphere: sampling visible normals also gives ωi below the horizon, where fs
-    // is 0.
+    // The pdf is normalised over the whole sphere: sampling visible normals also gives ωi below the horizon, where fs is 0.
     double pdf(const ShadingPoint& p, const Vec3& wo, const Vec3& wi) const {
         const Vec3 h = wo + wi;
         if (wo.z <= 0.0 || h.z <= 0.0) return 0.0;

@@ -59,9 +59,8 @@ public:
     }
     Rgb reflectance(const ShadingPoint&) const { return Rgb(1.0); }
     const RoughPlastic& white() const { return *this; }
-    // The albedo is at most s (1 − T) + b T ∫ T(μ) 2μ dμ, because facets with single scattering reflect at most 1 − T.
-    // This is linear in T, so its maximum is at the smallest or the largest T; b and the integral are those of two
-    // neighbours in the table.
+    // The albedo is at most s (1 − T) + b T ∫ T(μ) 2μ dμ, because facets with single scattering reflect at most 1 − T. This is
+    // linear in T, so its maximum is at the smallest or the largest T; b and the integral are those of two neighbours in the table.
     Rgb largest_albedo() const {
         const Rgb s = specular_.upper_bound();
         const std::vector<RoughTransmittance>& tables = transmittances_->tables();

@@ -1,7 +1,6 @@
-// The projected solid angle of a polygon at a point of a surface, ∫ cosθ dω over what is above the horizon, and
-// directions in proportion to cosθ. On the unit disk, where cosθ dω is area, a polygon's edges are arcs of ellipses
-// around the center: Lambert, Photometria, 1760. Sectors are those of Peters, BRDF Importance Sampling for Polygonal
-// Lights, 2021.
+// The projected solid angle of a polygon at a point of a surface, ∫ cosθ dω over what is above the horizon, and directions in
+// proportion to cosθ. On the unit disk, where cosθ dω is area, a polygon's edges are arcs of ellipses around the center: Lambert,
+// Photometria, 1760. Sectors are those of Peters, BRDF Importance Sampling for Polygonal Lights, 2021.
 #pragma once
 
 #include "core/base/frame.h"
@@ -15,9 +14,8 @@ namespace neumann {
 
 class ProjectedPolygon {
 public:
-    // A convex polygon of 3 or 4 corners, seen from the origin, where a surface has this normal. Its plane must miss
-    // the origin by more than rounding: from its own plane the polygon covers nothing or half of the sky, as its
-    // corners happen to be rounded.
+    // A convex polygon of 3 or 4 corners, seen from the origin, where a surface has this normal. Its plane must miss the origin by
+    // more than rounding: from its own plane the polygon covers nothing or half of the sky, as its corners happen to be rounded.
     ProjectedPolygon(std::span<const Vec3> corners, const Vec3& normal);
 
     // The projected solid angle, at most π; 0 if the polygon is below the horizon. The absolute error is about 10⁻¹⁵.

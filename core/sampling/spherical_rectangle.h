@@ -14,8 +14,7 @@ public:
     // The solid angle; 0 if the rectangle is seen edge-on. The absolute error is about 10⁻¹⁵, or 10⁻¹⁶ divided by the
     // distance to its plane if that is small, which is the effect of rounding the corner.
     double solid_angle() const { return solid_angle_; }
-    // Samples a point of the rectangle; its direction has the pdf 1/solid_angle() per solid angle. solid_angle() must
-    // be positive.
+    // Samples a point of the rectangle; its direction has the pdf 1/solid_angle() per solid angle. solid_angle() must be positive.
     Vec3 sample(const Vec2& u) const;
 
 private:

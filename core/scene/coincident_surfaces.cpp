@@ -42,8 +42,7 @@ std::uint32_t step(const Shape& shape) {
     return mesh ? static_cast<std::uint32_t>(boxes_met(*mesh) / boxes_at_once) + 1 : 1;
 }
 
-// How many of some faces of a shape are covered by others, and the first such shape of another material that faces the
-// same way.
+// How many of some faces of a shape are covered by others, and the first such shape of another material that faces the same way.
 struct Covered {
     std::size_t faces = 0;
     std::optional<std::uint32_t> unlike;

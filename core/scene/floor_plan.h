@@ -5,8 +5,7 @@
 
 namespace neumann {
 
-// The plan is seen along the axis of the world that is nearest to the camera's own up; the page's axes are axes of the
-// world, too.
+// The plan is seen along the axis of the world that is nearest to the camera's own up; the page's axes are axes of the world, too.
 struct FloorPlan {
     explicit FloorPlan(const SensorOptions& camera);
 

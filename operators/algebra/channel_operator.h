@@ -24,8 +24,7 @@ public:
     // Several processes may share K, each with some of its rows. Then size() is the number of a process's own rows, all
     // vectors hold the values of these unknowns, and every process calls apply() and apply_adjoint() in the same order.
     virtual const Agreement& agreement() const { return Agreement::alone(); }
-    // first() is the number of this process's first unknown among all unknowns, and unknowns() is how many there are in
-    // all.
+    // first() is the number of this process's first unknown among all unknowns, and unknowns() is how many there are in all.
     virtual std::size_t first() const { return 0; }
     virtual std::size_t unknowns() const { return static_cast<std::size_t>(size()); }
 

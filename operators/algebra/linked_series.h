@@ -13,9 +13,8 @@
 
 namespace neumann {
 
-// `product(field)` is R Σ_m T_m field(m), where field(m) points to a field, or is null for 0. If the product works on
-// finer fields than those of the terms, `lift` makes a finer field of a term, and `lower` makes a term of a finer
-// field.
+// `product(field)` is R Σ_m T_m field(m), where field(m) points to a field, or is null for 0. If the product works on finer fields
+// than those of the terms, `lift` makes a finer field of a term, and `lower` makes a term of a finer field.
 template <class Field, class Product, class Lift, class Lower>
 class LinkedSeries {
 public:

@@ -1,6 +1,5 @@
-// (R g)(p, ωo) = ∫ fs(p, ωi → ωo) g(p, ωi) |cos θi| dωi: what leaves p is what arrives, scattered by the material. R
-// needs materials only; no ray is traced here. The integral is estimated with one direction, drawn from the material's
-// own density.
+// (R g)(p, ωo) = ∫ fs(p, ωi → ωo) g(p, ωi) |cos θi| dωi: what leaves p is what arrives, scattered by the material. R needs
+// materials only; no ray is traced here. The integral is estimated with one direction, drawn from the material's own density.
 //
 // The adjoint distributes what leaves p over the directions that it comes from: (R* f)(p, ωi) = ∫ fs(p, ωi → ωo) f(p,
 // ωo) |cos θo| dωo.

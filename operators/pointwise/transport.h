@@ -1,5 +1,4 @@
-// (T f)(p, ω) = f(tr(p, ω), −ω): what arrives at p from ω is what left the first surface seen along ω. T needs geometry
-// only.
+// (T f)(p, ω) = f(tr(p, ω), −ω): what arrives at p from ω is what left the first surface seen along ω. T needs geometry only.
 //
 // The adjoint, (T* g)(q, ω) = g(tr(q, ω), −ω), has the same form because rays go both ways, with ⟨f, g⟩ = ∫∫ f g |cos
 // θ| dω dA. It is 0 where the ray leaves the scene.

@@ -1,5 +1,4 @@
-// An operator of the algebra as the K of a solver. solve(I - R * T, Le, measure, solve_gmres) hands I − K to one of the
-// solvers.
+// An operator of the algebra as the K of a solver. solve(I - R * T, Le, measure, solve_gmres) hands I − K to one of the solvers.
 #pragma once
 
 #include "operators/algebra/algebra.h"
@@ -80,9 +79,8 @@ private:
     Vector measure_;
 };
 
-// Solves (I − K) L = Le with a solver given as a function or by name. `how` is the problem without K and Le, which are
-// filled in. If the solver needs K* or entries and K has none, the verdict is Verdict::refused. For fields on finitely
-// many unknowns only.
+// Solves (I − K) L = Le with a solver given as a function or by name. `how` is the problem without K and Le, which are filled in.
+// If the solver needs K* or entries and K has none, the verdict is Verdict::refused. For fields on finitely many unknowns only.
 template <Endomorphism K>
 requires OnUnknowns<typename K::Domain> SolverResult solve(const Difference<Identity<typename K::Domain>, K>& equation,
                                                            const typename K::Domain& Le, Vector measure, const Solver& solver,

@@ -76,8 +76,7 @@ public:
     SolverResult end_diverging(Vector x, const std::string& seen);
     // Ends because `what` grew until it was not finite: the verdict is broke_down, unless the series diverges.
     SolverResult end_overflow(Vector x, const char* what);
-    // Ends because only rounding is left. `error` is the relative error due to rounding; refused if it is above a
-    // thousandth.
+    // Ends because only rounding is left. `error` is the relative error due to rounding; refused if it is above a thousandth.
     SolverResult end_rounding(Vector x, double error);
 
 private:

@@ -1,6 +1,5 @@
-// Bounds for means of few events. If a mean is made of events, such as a path that finds a small lamp, and only some
-// have been met, it is more often too small than too large, and its spread is too small with it: mean ± t · standard
-// error does not hold.
+// Bounds for means of few events. If a mean is made of events, such as a path that finds a small lamp, and only some have been met,
+// it is more often too small than too large, and its spread is too small with it: mean ± t · standard error does not hold.
 #pragma once
 
 namespace neumann {

@@ -110,8 +110,7 @@ private:
     std::size_t width_, height_;
 };
 
-// The contrast sensitivity is a sum of terms a √(π/b) exp(−π² x²/b), x in degrees, each of which is a separable
-// Gaussian.
+// The contrast sensitivity is a sum of terms a √(π/b) exp(−π² x²/b), x in degrees, each of which is a separable Gaussian.
 struct Sensitivity {
     double a, b;
 };

@@ -1,10 +1,9 @@
 // Means and variances of all pictures of a series over replicates: for every pixel the mean of each term, and the
 // second central moments of each term and of each partial sum.
 //
-// Replicates are the leaves of one fixed binary tree (pairwise summation), whose nodes are the ranges [a·2^k,
-// (a+1)·2^k). The rounding therefore does not depend on how a run was divided: any ranges that cover the same
-// replicates merge to the same bits. Two sets are joined by the formula of Chan, Golub and LeVeque (1983), under which
-// equal means leave the variance exactly zero.
+// Replicates are the leaves of one fixed binary tree (pairwise summation), whose nodes are the ranges [a·2^k, (a+1)·2^k). The
+// rounding therefore does not depend on how a run was divided: any ranges that cover the same replicates merge to the same bits.
+// Two sets are joined by the formula of Chan, Golub and LeVeque (1983), under which equal means leave the variance exactly zero.
 #pragma once
 
 #include "core/image/image.h"
@@ -51,8 +50,7 @@ public:
     SeriesMoments(int width, int height, std::size_t quantities, std::size_t pictures)
         : width_(width), height_(height), quantities_(quantities), pictures_(pictures) {}
 
-    // `node` must start where the present replicates end. Returns memory that has become free, if any, for the next
-    // node.
+    // `node` must start where the present replicates end. Returns memory that has become free, if any, for the next node.
     std::vector<double> add(MomentsNode node);
     // `next` must start where these replicates end.
     void add(const SeriesMoments& next);
@@ -89,13 +87,11 @@ private:
 
 class SeriesMoments::Result {
 public:
-    // The mean over n replicates, and its standard error √(M2 / (n (n−1))), of quantity i and of the sum of quantities
-    // 0 … i.
+    // The mean over n replicates, and its standard error √(M2 / (n (n−1))), of quantity i and of the sum of quantities 0 … i.
     Estimate term(std::size_t i) const { return estimate(i, false); }
     Estimate sum(std::size_t i) const { return estimate(i, true); }
 
-    // Means over pixels and channels. If pixels are not independent, the standard error comes from the spread of whole
-    // replicates.
+    // Means over pixels and channels. If pixels are not independent, the standard error comes from the spread of whole replicates.
     MeanWithError mean_of_term(std::size_t i) const { return mean(i, false); }
     MeanWithError mean_of_sum(std::size_t i) const { return mean(i, true); }
     PictureMeans means_of_term(std::size_t i) const { return means(i, false); }

@@ -19,11 +19,10 @@ bool is_written_unasked(double bytes, std::optional<double> free);
 
 class Checkpoints {
 public:
-    // Writes a state every `seconds` (default_checkpoint if not given). At the end of the render a state stays if it
-    // was interrupted, if `seconds` are given, or if it `keeps` its samples anyway, as parts and renders that were
-    // added to do; otherwise it would be several times as large as the pictures. Finished fields leave no state. If
-    // nobody asked for a state, a large one is not written, which is reported once by `tell`. `resuming`: the command
-    // that continues the render, for messages.
+    // Writes a state every `seconds` (default_checkpoint if not given). At the end of the render a state stays if it was
+    // interrupted, if `seconds` are given, or if it `keeps` its samples anyway, as parts and renders that were added to do;
+    // otherwise it would be several times as large as the pictures. Finished fields leave no state. If nobody asked for a state, a
+    // large one is not written, which is reported once by `tell`. `resuming`: the command that continues the render, for messages.
     Checkpoints(OutputFolder& folder, RequestOnDisk request, std::string resuming, std::optional<double> seconds, bool keeps,
                 std::function<void(const std::string&)> tell)
         : folder_(folder),

@@ -7,9 +7,8 @@
 
 namespace neumann {
 
-// Runs the jobs in parallel, `at_once` at most (at least 1), and begins them in their order. If some throw, the
-// exception of the first of them in that order is thrown, which is the same on any number of threads; those that follow
-// it may be skipped.
+// Runs the jobs in parallel, `at_once` at most (at least 1), and begins them in their order. If some throw, the exception of the
+// first of them in that order is thrown, which is the same on any number of threads; those that follow it may be skipped.
 void run_jobs(const std::vector<std::function<void()>>& jobs, std::size_t at_once);
 
 }  // namespace neumann

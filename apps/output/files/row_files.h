@@ -15,10 +15,9 @@ namespace neumann {
 
 class RowFiles : public RowStore {
 public:
-    // `scene`: everything on which the rays depend besides the numbers of patches and rays and the seed. `rank`: the
-    // rank of this process among those that keep rows there together; the first locks the folder. `seconds`: the least
-    // time from one file to the next. Throws InputError as OutputFolder does, and if there are rows of another scene or
-    // version, or an incomplete file.
+    // `scene`: everything on which the rays depend besides the numbers of patches and rays and the seed. `rank`: the rank of this
+    // process among those that keep rows there together; the first locks the folder. `seconds`: the least time from one file to the
+    // next. Throws InputError as OutputFolder does, and if there are rows of another scene or version, or an incomplete file.
     RowFiles(const std::filesystem::path& folder, nlohmann::ordered_json scene, int rank, double seconds);
 
     // The result refers to this object.

@@ -9,8 +9,7 @@
 namespace neumann {
 
 double brightening(const Image& term, const Image& emission, double exposure) {
-    // Rounding down to a power of two keeps the term from being too bright; 1e-3 allows for the rounding of pixel
-    // values.
+    // Rounding down to a power of two keeps the term from being too bright; 1e-3 allows for the rounding of pixel values.
     const double factor = std::exp2(std::floor(std::log2(exposure_for(term, emission) / exposure) + 1e-3));
     const bool black = std::all_of(term.pixels.begin(), term.pixels.end(), [](const Rgb& p) { return is_black(p); });
     return black ? 1.0 : std::max(1.0, factor);

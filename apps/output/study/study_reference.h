@@ -24,9 +24,8 @@ struct StudyReference {
 
 // The given answer or pictures; nothing if a method is to render them. Throws InputError for others, and other sizes.
 std::optional<StudyReference> given_reference(const StudyRequest& request, const Film& film, int bounces);
-// Renders the reference with the given method, or takes it from the cache. Returns nothing if interrupted. Calls
-// begins(identity) before it is rendered; its unfinished state is in the folder meanwhile. `crew`: processes that
-// render with this one, or null.
+// Renders the reference with the given method, or takes it from the cache. Returns nothing if interrupted. Calls begins(identity)
+// before it is rendered; its unfinished state is in the folder meanwhile. `crew`: processes that render with this one, or null.
 std::optional<StudyReference> make_reference(const StudyRequest& request, std::uint64_t samples, const Scene& scene,
                                              const Pilot& pilot, int bounces, OutputFolder& folder, Crew* crew,
                                              const std::function<void(const nlohmann::ordered_json&)>& begins);

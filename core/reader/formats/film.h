@@ -10,8 +10,7 @@ struct FilmSize {
     Location place_of_width, place_of_height;
 };
 
-// Adds `width` and `height`, which -D width and -D height override. If only one of them is given, the film keeps its
-// shape.
+// Adds `width` and `height`, which -D width and -D height override. If only one of them is given, the film keeps its shape.
 void add_film_size(Element& scene, Element& film, const FilmSize& size, const NamedValues& definitions);
 
 // Adds a film to the sensor of a file that says nothing about it but the aspect, width / height: 768 pixels wide, with

@@ -23,8 +23,7 @@ namespace neumann::reader {
 struct Notes {
     Warnings& warnings;
     Problems& problems;
-    // Whether an extension of glTF changes no picture; null for formats whose objects have no `extensions` and
-    // `extras`.
+    // Whether an extension of glTF changes no picture; null for formats whose objects have no `extensions` and `extras`.
     bool (*has_no_effect)(const std::string& extension) = nullptr;
     std::set<std::string> extensions = {};  // unknown ones that have been reported
     std::set<std::string> refused = {};     // those among them that the file requires

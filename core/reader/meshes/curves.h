@@ -29,9 +29,8 @@ inline constexpr int sides_of_tubes = 12;
 
 // Adds the tube around straight pieces from point to point, with round joints and round ends.
 void add_linear_tube(TriangleMesh& mesh, const Curve& curve);
-// Adds the tube around the uniform cubic B-spline of the points, with flat ends. It consists of straight pieces that
-// are within a hundredth of the largest radius of the curve. Throws InputError, which begins with `file`, if that takes
-// too many pieces.
+// Adds the tube around the uniform cubic B-spline of the points, with flat ends. It consists of straight pieces that are within a
+// hundredth of the largest radius of the curve. Throws InputError, which begins with `file`, if that takes too many pieces.
 void add_bspline_tube(TriangleMesh& mesh, const Curve& curve, const std::string& file);
 
 }  // namespace neumann

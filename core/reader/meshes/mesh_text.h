@@ -1,5 +1,4 @@
-// The text of a mesh file in memory, and a cursor over it that keeps track of line and column; shared by the mesh
-// readers.
+// The text of a mesh file in memory, and a cursor over it that keeps track of line and column; shared by the mesh readers.
 #pragma once
 
 #include "core/base/printable.h"

@@ -121,8 +121,7 @@ private:
         text_.next_line();
     }
 
-    // Lines and points have no area; the others are names, groups and materials, and materials come from the scene
-    // file.
+    // Lines and points have no area; the others are names, groups and materials, and materials come from the scene file.
     static bool is_ignored(std::string_view keyword) {
         for (const std::string_view ignored : {"l", "p", "g", "o", "s", "mtllib", "usemtl"}) {
             if (keyword == ignored) return true;

@@ -328,8 +328,7 @@ private:
     const std::string& file_;
     MeshFile result_;
     std::vector<Fan> fans_;
-    // The index in the mesh of the first attribute of the element being read, and the attributes' values in the current
-    // row.
+    // The index in the mesh of the first attribute of the element being read, and the attributes' values in the current row.
     std::size_t first_attribute_ = 0;
     std::vector<std::array<float, 3>> row_;
 };

@@ -37,8 +37,7 @@ public:
     }
 
 private:
-    // Projects the polygon as seen from the side from which it is counter-clockwise as a whole. Returns false if it has
-    // no area.
+    // Projects the polygon as seen from the side from which it is counter-clockwise as a whole. Returns false if it has no area.
     bool see_from_above(const std::vector<Vec3>& corners) {
         double size = 0.0;
         for (const Vec3& p : corners) size = std::max(size, max_component(glm::abs(p - corners[0])));

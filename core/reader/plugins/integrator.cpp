@@ -79,8 +79,7 @@ Integrator read_integrator(const Element& e, const Context& context) {
     }
     read_course_of_work(p);
     p.finish();
-    // `moment` only adds the squares of the samples, which the standard errors contain, and `aov` only what is no
-    // light.
+    // `moment` only adds the squares of the samples, which the standard errors contain, and `aov` only what is no light.
     return nested ? read_integrator(*nested, context) : result;
 }
 

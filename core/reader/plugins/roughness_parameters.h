@@ -1,5 +1,4 @@
-// Reads the parameters that rough materials share: `distribution`, `alpha` or `alpha_u` and `alpha_v`, and
-// `sample_visible`.
+// Reads the parameters that rough materials share: `distribution`, `alpha` or `alpha_u` and `alpha_v`, and `sample_visible`.
 #pragma once
 
 #include "core/material/surface_function.h"

@@ -15,8 +15,7 @@ class SceneLights {
 public:
     explicit SceneLights(const Context& context) : context_(context) {}
 
-    // Throws InputError for an emitter with errors, or for a second environment. Ignores lights of shapes, which
-    // AreaLights reads.
+    // Throws InputError for an emitter with errors, or for a second environment. Ignores lights of shapes, which AreaLights reads.
     void add(const Element& e);
 
     std::optional<Environment> take_environment() { return std::move(environment_); }

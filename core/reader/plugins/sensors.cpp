@@ -73,8 +73,7 @@ SensorOptions read_orthographic(Properties& p) {
     return camera;
 }
 
-// Reads `direction`, or the +z of `to_world`, at length 1. `beside` names parameters that may already have a problem
-// with them.
+// Reads `direction`, or the +z of `to_world`, at length 1. `beside` names parameters that may already have a problem with them.
 Vec3 read_direction(Properties& p, const std::vector<std::string>& beside = {}) {
     const Element* to_world = p.find("to_world", {"transform"});
     const std::optional<Vec3> direction = p.point("direction");

@@ -32,8 +32,7 @@ std::optional<SurfaceFunction> find_color_texture(Properties& p, const std::stri
 // A picture's texels, read once for all textures; the file becomes part of the scene's hash.
 std::shared_ptr<const Texels> read_texels(const Attribute& filename, const Context& context);
 
-// Reads a number into all channels: the luminance of a picture or, as in Mitsuba, the mean of the channels of any other
-// colour.
+// Reads a number into all channels: the luminance of a picture or, as in Mitsuba, the mean of the channels of any other colour.
 SurfaceFunction read_number_texture(Properties& p, const std::string& name, double missing, const Context& context);
 
 // The mesh attributes that the textures on a shape need, and the elements that name them.

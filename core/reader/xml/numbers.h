@@ -1,5 +1,4 @@
-// Reads the values of attributes. The whole text must be the value; every function throws InputError at the attribute
-// otherwise.
+// Reads the values of attributes. The whole text must be the value; every function throws InputError at the attribute otherwise.
 #pragma once
 
 #include "core/base/vec.h"

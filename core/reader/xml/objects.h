@@ -9,8 +9,7 @@
 
 namespace neumann::reader {
 
-// The limit for textures, and materials, inside each other: as deep as elements in a file may stand, but by references
-// as well.
+// The limit for textures, and materials, inside each other: as deep as elements in a file may stand, but by references as well.
 inline constexpr std::size_t max_nesting = 100;
 
 // Ids of what could not be read.

@@ -46,8 +46,7 @@ public:
     // Lists what is unknown if the reader is lenient, and otherwise throws it.
     void replace(const Unknown& unknown, const Location& near);
 
-    // Calls f and returns its result, or nothing if it throws InputError. If f returns void, returns whether it did not
-    // throw.
+    // Calls f and returns its result, or nothing if it throws InputError. If f returns void, returns whether it did not throw.
     template <class F>
     auto attempt(const Location& near, F&& f) {
         using Result = std::invoke_result_t<F>;

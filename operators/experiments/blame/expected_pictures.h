@@ -30,8 +30,7 @@ public:
     int paths_a_pixel() const;  // samples of a pixel in wrong()
     std::shared_ptr<const std::vector<WrongPictures>> without_techniques(const Ranges& ranges);
 
-    // Keeps all pictures of mistakes for other renderers. By default only those needed last are kept, as they are
-    // large.
+    // Keeps all pictures of mistakes for other renderers. By default only those needed last are kept, as they are large.
     void keep_all() { keeps_all_ = true; }
 
 private:

@@ -29,8 +29,7 @@ enum class Mistake {
     no_shadows,
     lamps_shine_back,
     light_twice,  // light samples and directions that hit lamps both count in full
-    // There are no light samples, and directions that hit lamps count with their weights (paths with s = 1 are
-    // missing).
+    // There are no light samples, and directions that hit lamps count with their weights (paths with s = 1 are missing).
     no_lamp_samples,
     no_hits,  // directions that hit lamps do not count, and light samples count with their weights (s = 0 is missing)
     no_light_after_mirror,

@@ -15,9 +15,8 @@ double mean_of(const Image& image, int channel);
 // Differences below this part of a picture's mean count as rounding errors.
 constexpr double rounding_of_pictures = 2e-4;
 
-// An estimate of the variance of a picture's pixels, for pictures without a variance: from the difference of a pixel
-// and the mean of its four neighbours, the median over 7×7 pixels. Edges do not count as long as most pixels around
-// them are smooth.
+// An estimate of the variance of a picture's pixels, for pictures without a variance: from the difference of a pixel and the mean
+// of its four neighbours, the median over 7×7 pixels. Edges do not count as long as most pixels around them are smooth.
 Image local_variance(const Image& picture);
 
 // The same for theirs with the help of ours: the details of the scene are not in the difference of both, but our noise

@@ -1,6 +1,5 @@
-// Tests whether the pixels of a picture may have shared random numbers. They then err together, over wide areas and
-// with one sign, and one picture cannot distinguish such an error from a mistake: its own noise, between neighbours, is
-// much smaller.
+// Tests whether the pixels of a picture may have shared random numbers. They then err together, over wide areas and with one sign,
+// and one picture cannot distinguish such an error from a mistake: its own noise, between neighbours, is much smaller.
 #pragma once
 
 #include "operators/experiments/blame/picture_noise.h"

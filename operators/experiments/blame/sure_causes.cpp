@@ -10,10 +10,9 @@ namespace neumann {
 
 namespace {
 
-// The part of the squared difference that a mistake may leave, in pixels that chance hardly changes, and in all lamps
-// that the camera sees. The second is larger because a shift is known only roughly: if it is half a pixel, a third is
-// left. If all pixels share the same four samples, these lie off the middle, in 1 of 20 pictures so far that a shift
-// leaves as little.
+// The part of the squared difference that a mistake may leave, in pixels that chance hardly changes, and in all lamps that the
+// camera sees. The second is larger because a shift is known only roughly: if it is half a pixel, a third is left. If all pixels
+// share the same four samples, these lie off the middle, in 1 of 20 pictures so far that a shift leaves as little.
 constexpr double most_left_of_sure = 0.1, most_left_of_signs = 0.35;
 
 bool is_of_sure_light(Mistake mistake) {

@@ -18,8 +18,7 @@ struct SureLight {
     double samples;  // of a pixel
 };
 
-// The least number of samples a pixel of another renderer, from the lamps that the camera sees, as all sample them
-// alike.
+// The least number of samples a pixel of another renderer, from the lamps that the camera sees, as all sample them alike.
 double fewest_samples(const PictureNoise& theirs, const PictureNoise& ours, const SureLight& right);
 
 // Tests whether `theirs` less `ours` agrees with `wrong` less `right`, over pixels in which it hardly does by chance.

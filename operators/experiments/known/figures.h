@@ -1,9 +1,8 @@
 // Expected and measured values, with their tolerances.
 //
-// Sampled values pass at |z| = |measured − expected| / SE ≤ 4.5, and only if SE is at most 0.2% of the expected value:
-// without power a pass says nothing. With the 63 degrees of freedom of 64 batches, |z| > 4.5 is a false alarm in 3.0e-5
-// of all comparisons (Student's t). If the variance is infinite, z means nothing; cases then check known properties of
-// the samples instead.
+// Sampled values pass at |z| = |measured − expected| / SE ≤ 4.5, and only if SE is at most 0.2% of the expected value: without
+// power a pass says nothing. With the 63 degrees of freedom of 64 batches, |z| > 4.5 is a false alarm in 3.0e-5 of all comparisons
+// (Student's t). If the variance is infinite, z means nothing; cases then check known properties of the samples instead.
 #pragma once
 
 #include "operators/experiments/known/probe.h"

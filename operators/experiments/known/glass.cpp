@@ -30,8 +30,7 @@ void fresnel(Figures& figures, std::uint64_t) {
     for (const auto& [degrees, R] : reflected)
         figures.near(fmt::format("R at {:g} degrees", degrees), conductor_fresnel(std::cos(degrees * pi / 180.0), n, 0.0), R,
                      1e-12);
-    // Integrals are over √μ, because F has an edge at grazing angles; inside, it has a root's edge at the critical
-    // angle.
+    // Integrals are over √μ, because F has an edge at grazing angles; inside, it has a root's edge at the critical angle.
     figures.near("cosine mean from outside",
                  integrate_smooth(0.0, 1.0, [](double s) { return conductor_fresnel(s * s, n, 0.0) * 4.0 * s * s * s; }),
                  0.0917779593423512, 1e-12);

@@ -64,8 +64,7 @@ void unfold(Figures& figures, Technique technique, std::uint64_t seed) {
     figures.near("largest error of rho^i Le(face i)", worst, 0.0, 1e-12);
 }
 
-// In a sphere a ray goes round in steps α = π − 2θ: Le = 1 + cos 3φ gives K^i Le = ρ^i (1 + cos 3iα). The eigenvalues
-// are complex.
+// In a sphere a ray goes round in steps α = π − 2θ: Le = 1 + cos 3φ gives K^i Le = ρ^i (1 + cos 3iα). The eigenvalues are complex.
 void rotate(Figures& figures, Technique technique, std::uint64_t seed) {
     const double theta = 37.0 * pi / 180.0, alpha = pi - 2.0 * theta;
     SceneMaker maker;

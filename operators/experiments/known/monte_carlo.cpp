@@ -181,9 +181,8 @@ void roulette(Figures& figures, std::uint64_t seed, double rho, double q, double
             figures.near("variance", found.rest_variance.mean.r, variance, z_limit * found.rest_variance.standard_error.r);
     } else {
         figures.holds("second moment is infinite, by formula", std::isinf(known.second_moment));
-        // P(X > x) ~ x^−α, α = ln q/ln(q/ρ), but X takes only values that are a factor of ρ/q apart. Hill's estimate is
-        // then between (1 − q)/ln(ρ/q), if none of the kept samples equals the smallest, and 1/q of that, if as many as
-        // possible do.
+        // P(X > x) ~ x^−α, α = ln q/ln(q/ρ), but X takes only values that are a factor of ρ/q apart. Hill's estimate is then
+        // between (1 − q)/ln(ρ/q), if none of the kept samples equals the smallest, and 1/q of that, if as many as possible do.
         const auto tail = tail_index(found.largest.back());
         const double step = std::log(rho / q), lowest = (1.0 - q) / step, highest = lowest / q;
         figures.near("tail index, of steps", tail ? tail->alpha : 0.0, 0.5 * (lowest + highest),

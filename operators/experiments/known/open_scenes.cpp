@@ -35,9 +35,8 @@ void add_convex(Cases& cases, const char* name, const Shape& body) {
                      }});
 }
 
-// A sphere with an opening of the fraction f of its area: K^i Le = ρ f (ρ (1 − f))^(i−1) everywhere inside. The
-// apparent emissivity of the opening is ε/(ε + f (1 − ε)) with ε = 1 − ρ: 1 minus the light that comes back out, the
-// sum of K^i Le.
+// A sphere with an opening of the fraction f of its area: K^i Le = ρ f (ρ (1 − f))^(i−1) everywhere inside. The apparent emissivity
+// of the opening is ε/(ε + f (1 − ε)) with ε = 1 − ρ: 1 minus the light that comes back out, the sum of K^i Le.
 void cavity(Figures& figures, std::uint64_t seed, double f, Technique technique) {
     const double rho = 0.5, height = 1.0 - 2.0 * f, rim = std::sqrt(1.0 - height * height);
     SceneMaker maker;

@@ -1,6 +1,5 @@
-// Estimates all terms K^i Le of a scene at one place, or on average over a set of places. Known answers are mostly for
-// points, not pixels, so this runs walk() (walk.h) and the operators of pointwise directly. Standard errors come from
-// 64 independent batches.
+// Estimates all terms K^i Le of a scene at one place, or on average over a set of places. Known answers are mostly for points, not
+// pixels, so this runs walk() (walk.h) and the operators of pointwise directly. Standard errors come from 64 independent batches.
 #pragma once
 
 #include "core/scene/scene.h"

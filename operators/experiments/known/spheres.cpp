@@ -1,5 +1,4 @@
-// Inside a diffuse sphere every point sees every other equally: G is constant, K has rank one, and for any ρ(p) and
-// Le(p)
+// Inside a diffuse sphere every point sees every other equally: G is constant, K has rank one, and for any ρ(p) and Le(p)
 //
 //     K^i Le (p) = ρ(p) <ρ>^(i−1) <Le>,   i ≥ 1,   <·> the mean over the sphere.
 //

@@ -1,6 +1,5 @@
-// Two surfaces, each of which sees itself and the other equally from all its points: K = [ρ1 F11, ρ1 F12; ρ2 F21, ρ2
-// F22] is exact. Values are constant on each surface, up to the rim where they meet. One eigenvalue is negative, so the
-// terms alternate.
+// Two surfaces, each of which sees itself and the other equally from all its points: K = [ρ1 F11, ρ1 F12; ρ2 F21, ρ2 F22] is exact.
+// Values are constant on each surface, up to the rim where they meet. One eigenvalue is negative, so the terms alternate.
 //
 //     concentric spheres, inner seen from outside:  F12 = 1,  F21 = (r1/r2)²,  F22 = 1 − F21;
 //     a sphere closed by a disc, with the fraction f of the sphere's area:  F_dd = 0, F_ds = 1, F_sd = 1 − f, F_ss = f.

@@ -1,6 +1,5 @@
-// Chooses which of two unbiased methods renders the reference: the one that, at equal cost, is less far behind the
-// other in its worst bounce. V_i is the variance of bounce i, averaged over the picture, and C the cost of all bounces
-// together:
+// Chooses which of two unbiased methods renders the reference: the one that, at equal cost, is less far behind the other in its
+// worst bounce. V_i is the variance of bounce i, averaged over the picture, and C the cost of all bounces together:
 //
 //     ρ_i = V_i C / (V'_i C')        the first method over the second
 //

@@ -6,9 +6,8 @@
 //
 //     C¹ = T¹ T⁻¹ = I − A,    Cⁿ = Aⁿ⁻¹ C¹,    L = Σ Cⁿ L.
 //
-// S. M. Seitz, Y. Matsushita, K. N. Kutulakos, A Theory of Inverse Light Transport, ICCV 2005. Each light shines
-// directly on one region, and no light goes from a region to itself; then T¹ is diagonal and follows from T⁻¹ = (T¹)⁻¹
-// (I − A): T¹_rr = 1/(T⁻¹)_rr.
+// S. M. Seitz, Y. Matsushita, K. N. Kutulakos, A Theory of Inverse Light Transport, ICCV 2005. Each light shines directly on one
+// region, and no light goes from a region to itself; then T¹ is diagonal and follows from T⁻¹ = (T¹)⁻¹ (I − A): T¹_rr = 1/(T⁻¹)_rr.
 #pragma once
 
 #include <Eigen/Core>

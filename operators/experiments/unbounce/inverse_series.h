@@ -3,10 +3,9 @@
 //
 //     T⁻¹ = F⁻¹ Σ (−R)^k,    X ← X + F⁻¹ (I − T X).
 //
-// J. Bai, M. Chandraker, T.-T. Ng, R. Ramamoorthi, A Dual Theory of Inverse and Forward Light Transport, ECCV 2010:
-// each term cancels the error of the one before, so signs alternate. It converges if and only if the spectral radius of
-// R is below 1. An eigenvalue λ of A = I − T¹ T⁻¹ becomes one of about λ/(1 − λ) in R, which is below 1 only for λ <
-// 1/2.
+// J. Bai, M. Chandraker, T.-T. Ng, R. Ramamoorthi, A Dual Theory of Inverse and Forward Light Transport, ECCV 2010: each term
+// cancels the error of the one before, so signs alternate. It converges if and only if the spectral radius of R is below 1. An
+// eigenvalue λ of A = I − T¹ T⁻¹ becomes one of about λ/(1 − λ) in R, which is below 1 only for λ < 1/2.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,10 +1,9 @@
 // Renders a scene under all of a projector's lights at once, and the forward series under all of them together.
 //
-// A walk from the camera takes a light sample of the projector at each of its vertices. The light at a vertex comes
-// from the block whose beam contains the vertex, and from no other, so it counts in the picture of that light. One set
-// of walks thus makes all pictures, each with the expectation and the variance of one that is rendered alone. Their
-// errors are correlated, because they share samples; they are independent between parts of the samples, which are kept
-// (RegionParts).
+// A walk from the camera takes a light sample of the projector at each of its vertices. The light at a vertex comes from the block
+// whose beam contains the vertex, and from no other, so it counts in the picture of that light. One set of walks thus makes all
+// pictures, each with the expectation and the variance of one that is rendered alone. Their errors are correlated, because they
+// share samples; they are independent between parts of the samples, which are kept (RegionParts).
 //
 // The camera, which is at the projector's place, sees the first vertex. In the backward series the bounces of light are
 // the reflections by surfaces that the camera sees: Sⁿ. So because of light by way of surfaces that are not seen, the

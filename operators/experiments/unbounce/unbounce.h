@@ -1,7 +1,6 @@
 // The Neumann series backwards: pictures of a scene under separate lights, taken apart into bounces (cancellation.h).
 //
-// A pixel p is unbounced with the operators of the regions, with its row T_p of pictures and y = T⁻¹ Cⁿ⁻¹ L of the
-// regions:
+// A pixel p is unbounced with the operators of the regions, with its row T_p of pictures and y = T⁻¹ Cⁿ⁻¹ L of the regions:
 //
 //     (C¹ L)_p = T¹_p T⁻¹ L,    (Cⁿ L)_p = (T_p − T¹_p) y,    T¹_pr = Σ_j T_pj (T⁻¹)_jr / (T⁻¹)_rr  for its region r, and 0 for
 //     others,
@@ -36,9 +35,8 @@ struct Unbounced {
     bool knows_errors = false;
     double degrees_of_freedom = 0.0;  // of the errors
     std::array<UnbouncedChannel, 3> channels;
-    // Cⁿ L, n = 1 … N, in pixels. The error of a pixel is that of its own values, to first order, and of its region's
-    // term. Errors of pixels are correlated; those of means are from repeats. The discretisation is the difference from
-    // merged regions.
+    // Cⁿ L, n = 1 … N, in pixels. The error of a pixel is that of its own values, to first order, and of its region's term. Errors
+    // of pixels are correlated; those of means are from repeats. The discretisation is the difference from merged regions.
     std::vector<PixelEstimate> terms;
     std::vector<PictureMeans> means;
     // For the mean of term n, |difference| from merged regions; empty: not estimated.

@@ -43,8 +43,7 @@ public:
         return result;
     }
 
-    // Adds errors with the covariance of the parts' means to T and the direct light: Σ_p ξ_p (T_p − T) / √(P (P − 1)),
-    // normal ξ.
+    // Adds errors with the covariance of the parts' means to T and the direct light: Σ_p ξ_p (T_p − T) / √(P (P − 1)), normal ξ.
     void disturb(ChannelPictures& pictures) {
         const auto P = static_cast<double>(pictures.parts.size());
         const MatrixXd T = pictures.T, direct = pictures.direct;

@@ -1,6 +1,5 @@
-// All terms of a series on a patch space, stored unknown by unknown, so that a pixel reads all bounces from one place.
-// The values are floats, for pictures only; they are added up in doubles, because a pixel may read them ten million
-// times.
+// All terms of a series on a patch space, stored unknown by unknown, so that a pixel reads all bounces from one place. The values
+// are floats, for pictures only; they are added up in doubles, because a pixel may read them ten million times.
 #pragma once
 
 #include "operators/fields/matrix/patch_field.h"

@@ -38,8 +38,7 @@ const GaussRule& gauss(int n) {
     return rules[n];
 }
 
-// The number of Gauss points per dimension for full double precision, from the ellipse in which the integrand is
-// analytic.
+// The number of Gauss points per dimension for full double precision, from the ellipse in which the integrand is analytic.
 int points_needed(const Parallelogram& a, const Parallelogram& b) {
     const auto reach = [](const Parallelogram& p) { return 0.5 * std::max(glm::length(p.u + p.v), glm::length(p.u - p.v)); };
     const auto half_edge = [](const Parallelogram& p) { return 0.5 * std::max(glm::length(p.u), glm::length(p.v)); };

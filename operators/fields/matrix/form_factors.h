@@ -29,9 +29,8 @@ struct Parallelogram {
 // The nu × nv cells of a face; the cell (i, j) along u and v has index i nv + j.
 std::vector<Parallelogram> cells(const Parallelogram& face, int nu, int nv);
 
-// A_a F_ab, with a relative error of about 10⁻¹⁵ for cells of similar size; 0 if one lies in or behind the other's
-// plane. Throws std::invalid_argument if a patch crosses the other's plane or has no area, and if a near pair has no
-// closed form.
+// A_a F_ab, with a relative error of about 10⁻¹⁵ for cells of similar size; 0 if one lies in or behind the other's plane. Throws
+// std::invalid_argument if a patch crosses the other's plane or has no area, and if a near pair has no closed form.
 double exchange_area(const Parallelogram& a, const Parallelogram& b);
 
 // Exchange areas of many pairs, cached: on grids of equal cells most pairs are congruent, and each kind is integrated once.
@@ -49,8 +48,7 @@ struct FormFactors {
     Vector area;
 };
 
-// The form factors are not renormalised: rows sum to 1, up to the accuracy of the integrals, if the patches enclose
-// their room.
+// The form factors are not renormalised: rows sum to 1, up to the accuracy of the integrals, if the patches enclose their room.
 FormFactors form_factors(const std::vector<Parallelogram>& patches);
 
 }  // namespace neumann

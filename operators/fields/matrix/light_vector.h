@@ -1,5 +1,4 @@
-// The first terms of the series on a patch space: Le, and b = K Le by light sampling if the rays of T would hardly hit
-// the lights.
+// The first terms of the series on a patch space: Le, and b = K Le by light sampling if the rays of T would hardly hit the lights.
 #pragma once
 
 #include "core/scene/scene.h"

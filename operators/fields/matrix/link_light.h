@@ -119,8 +119,7 @@ private:
             return {s.wo, s.weight, passes ? refractive_ratio(*side.bsdf) : 1.0};
         }
     };
-    // Calls each(x, w, power) with the power, in W per sample, that arrives at a point x of the reflector from the
-    // direction w.
+    // Calls each(x, w, power) with the power, in W per sample, that arrives at a point x of the reflector from the direction w.
     template <class Each>
     void light(const Reflector& reflector, Sampler& sampler, std::uint32_t first, std::uint32_t count, double samples,
                const Each& each) const {

@@ -1,8 +1,7 @@
-// Balances the power of a field on patches. Of the power that leaves the unknowns, the rays of T that see them catch
-// some, and the rest hits nothing. Of the power that arrives, the directional albedo of its cell is reflected. R
-// conserves power to rounding, T only in expectation, because the rays that see a facet and the facet's own rays are
-// two different estimates. A chain (chains.h) carries the power that it takes from a side with unknowns from link to
-// link, one bounce each.
+// Balances the power of a field on patches. Of the power that leaves the unknowns, the rays of T that see them catch some, and the
+// rest hits nothing. Of the power that arrives, the directional albedo of its cell is reflected. R conserves power to rounding, T
+// only in expectation, because the rays that see a facet and the facet's own rays are two different estimates. A chain (chains.h)
+// carries the power that it takes from a side with unknowns from link to link, one bounce each.
 //
 // If several processes share the rows of T, each finds the power that leaves its own facets, arrives there and is seen
 // from there: the sum over the processes is the balance.

@@ -17,8 +17,7 @@
 
 namespace neumann {
 
-// A material's block and its place in R: its rows and columns begin with the unknown `first`. A null pointer stands for
-// 1.
+// A material's block and its place in R: its rows and columns begin with the unknown `first`. A null pointer stands for 1.
 struct FacetBlock {
     std::shared_ptr<const ReflectionBlock> block;
     std::uint32_t first = 0;

@@ -17,8 +17,7 @@ namespace neumann {
 
 namespace {
 
-// If rows are kept, at least so many rays, and so many facets for each thread, are traced between two looks at the
-// clock.
+// If rows are kept, at least so many rays, and so many facets for each thread, are traced between two looks at the clock.
 constexpr std::size_t rays_of_part = std::size_t{1} << 18, facets_of_thread = 8;
 // The largest number of rays in a block of kept rows, 256 MB.
 constexpr std::size_t rays_of_block = std::size_t{1} << 26;

@@ -22,8 +22,7 @@ struct BlindRay {
     const Sight& sight;
 };
 
-// The number of a facet's rays if there are `rays` per facet: facets with more cells of directions than that have one
-// ray per cell.
+// The number of a facet's rays if there are `rays` per facet: facets with more cells of directions than that have one ray per cell.
 inline std::uint32_t rays_of(const Facet& facet, std::uint32_t rays) { return std::max(rays, facet.cells.size()); }
 
 // The rows of some facets: the row of facets[i] has the places first_ray[i] … first_ray[i + 1] − 1.

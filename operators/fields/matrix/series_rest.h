@@ -1,15 +1,13 @@
 // Σ_{k>N} K^k Le, the rest of a series, with few applications of K.
 //
-// Terms are added until t_{n+2} ≈ μ t_n; the later ones are summed as a geometric series. Every second term is compared
-// because light between, for example, a lamp and the ceiling makes neighbouring terms alternate. Each unknown has its
-// own ratio μ: light of a room that is dim and slow does not fall like that of one that is bright and fast, and a
-// picture may show the dim one alone.
+// Terms are added until t_{n+2} ≈ μ t_n; the later ones are summed as a geometric series. Every second term is compared because
+// light between, for example, a lamp and the ceiling makes neighbouring terms alternate. Each unknown has its own ratio μ: light of
+// a room that is dim and slow does not fall like that of one that is bright and fast, and a picture may show the dim one alone.
 //
-// The error is bounded unknown by unknown, relative to the value there. θ = t_{n+1} + t_{n+2} + … is the solution of
-// θ = T + K^m θ with T = t_{n+1} + … + t_{n+m}, m = 2. If a guess g has the residual r = T + K^m g − g and |r| ≤ η
-// (T − r), then η g, which solves x = η (T − r) + K^m x, is above |θ − g| because K ≥ 0. m more applications give this
-// bound, and T + K^m g, which is closer than g. Light that comes round in more than two bounces leaves unknowns without
-// light in T: then m is doubled.
+// The error is bounded unknown by unknown, relative to the value there. θ = t_{n+1} + t_{n+2} + … is the solution of θ = T + K^m θ
+// with T = t_{n+1} + … + t_{n+m}, m = 2. If a guess g has the residual r = T + K^m g − g and |r| ≤ η (T − r), then η g, which
+// solves x = η (T − r) + K^m x, is above |θ − g| because K ≥ 0. m more applications give this bound, and T + K^m g, which is closer
+// than g. Light that comes round in more than two bounces leaves unknowns without light in T: then m is doubled.
 #pragma once
 
 #include "operators/algebra/compensated_sum.h"
@@ -39,9 +37,8 @@ namespace series_rest {
 // Numbers below this may have lost digits.
 constexpr double too_small = std::numeric_limits<double>::min() / std::numeric_limits<double>::epsilon();
 
-// T / (1 − μ), the sum of T and all later terms if they fall by μ again and again. μ is the ratio of `term` and `first`
-// at each unknown, or if an unknown has no light in `first`, the ratio of all unknowns together. Returns nothing if one
-// μ is not below 1.
+// T / (1 − μ), the sum of T and all later terms if they fall by μ again and again. μ is the ratio of `term` and `first` at each
+// unknown, or if an unknown has no light in `first`, the ratio of all unknowns together. Returns nothing if one μ is not below 1.
 template <int C>
 std::optional<ExitantVector<C>> sum_geometrically(const ExitantVector<C>& first, const ExitantVector<C>& term,
                                                   const ExitantVector<C>& T) {

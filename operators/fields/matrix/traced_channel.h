@@ -14,8 +14,7 @@ public:
     // Keeps a reference to the table.
     TracedChannel(const RayTable& table, const ReflectionMatrix<1>& R);
 
-    // The standard error of (K* 1)_u, the fraction of u's power that remains after a bounce, estimated by the rays that
-    // hit u.
+    // The standard error of (K* 1)_u, the fraction of u's power that remains after a bounce, estimated by the rays that hit u.
     double standard_error_of_power(Eigen::Index u) const;
 
     // ρ of each unknown, with K = diag(ρ) F; empty if some side is not diffuse.

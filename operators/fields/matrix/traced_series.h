@@ -44,9 +44,8 @@ struct TracedSeries {
 // Throws Stopped if `watch` stops it; so does trace_importance().
 TracedSeries trace_series(const Scene& scene, const PatchSpace& space, const PatchSpace& coarser,
                           const TracedSeriesSettings& settings, const Watch& watch = {});
-// The same with a given R, and with a T that several processes may share. All processes call it together, and all get
-// the series that one process alone would get; only `power` may differ by rounding. All throw Stopped if one is
-// stopped.
+// The same with a given R, and with a T that several processes may share. All processes call it together, and all get the series
+// that one process alone would get; only `power` may differ by rounding. All throw Stopped if one is stopped.
 TracedSeries trace_series(const Scene& scene, const RowShare& rows, const PatchSpace& coarser, const SceneReflection& reflection,
                           const TracedSeriesSettings& settings, const Watch& watch);
 

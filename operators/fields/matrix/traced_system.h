@@ -15,9 +15,8 @@ PatchSpace traced_space(const Scene& scene, const TracedSettings& settings, int 
 
 class TracedSystem : public MatrixSystem {
 public:
-    // Keeps a reference to the scene. Throws InputError if there are no surfaces, if no side of any surface faces
-    // another or shines, and if the patches and rays need too much memory. Throws Stopped if `watch` stops it while T
-    // is traced.
+    // Keeps a reference to the scene. Throws InputError if there are no surfaces, if no side of any surface faces another or
+    // shines, and if the patches and rays need too much memory. Throws Stopped if `watch` stops it while T is traced.
     TracedSystem(const Scene& scene, const TracedSettings& settings, const Watch& watch = {});
     TracedSystem(const TracedSystem&) = delete;
     TracedSystem& operator=(const TracedSystem&) = delete;

@@ -1,7 +1,6 @@
-// The charts of all surfaces, and the chart of a point. Two triangles that form a plane convex quadrilateral share a
-// chart. Any other triangle has three charts, one at each corner, if it is larger than a patch, and otherwise one. The
-// faces of a mesh that are smaller than half a patch share one chart of clusters, unless they are few. A sphere, a
-// cylinder or a disc has one chart.
+// The charts of all surfaces, and the chart of a point. Two triangles that form a plane convex quadrilateral share a chart. Any
+// other triangle has three charts, one at each corner, if it is larger than a patch, and otherwise one. The faces of a mesh that
+// are smaller than half a patch share one chart of clusters, unless they are few. A sphere, a cylinder or a disc has one chart.
 #pragma once
 
 #include "operators/fields/patches/chart.h"

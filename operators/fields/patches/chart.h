@@ -68,8 +68,7 @@ public:
     // `upper`; they may be the same.
     Chart(std::uint32_t shape, const std::array<Vec3, 4>& corners, const Vec3& normal, std::uint32_t lower, std::uint32_t upper);
 
-    // The chart of `faces` small faces of a mesh or an instance, which have this area. It has no clusters before
-    // set_clusters().
+    // The chart of `faces` small faces of a mesh or an instance, which have this area. It has no clusters before set_clusters().
     Chart(std::uint32_t shape, std::size_t faces, double area);
 
     std::uint32_t shape() const { return shape_; }

@@ -17,8 +17,7 @@ struct DirectionCells {
     std::uint32_t cell(const Vec3& w) const { return k == 1 ? 0 : cell_of_square(square_of_disk(Vec2(w))); }
     std::uint32_t cell_of_square(const Vec2& u) const { return along(u.y) * k + along(u.x); }
     std::uint32_t mirrored(std::uint32_t cell) const { return size() - 1 - cell; }
-    // The first function halves the number of cells along both axes; the second returns the coarser cell that contains
-    // a cell.
+    // The first function halves the number of cells along both axes; the second returns the coarser cell that contains a cell.
     DirectionCells coarser() const { return {std::max(k / 2, 1u)}; }
     std::uint32_t coarser(std::uint32_t cell) const { return k == 1 ? 0 : cell / k / 2 * (k / 2) + cell % k / 2; }
     // A direction that is uniform in projected solid angle if u is uniform in [0, 1)².

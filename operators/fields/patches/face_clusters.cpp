@@ -10,8 +10,7 @@ namespace neumann {
 
 namespace {
 
-// With this weight, normals that differ by a right angle count as much as places that are 1.5 √2 widths of a cluster
-// apart.
+// With this weight, normals that differ by a right angle count as much as places that are 1.5 √2 widths of a cluster apart.
 constexpr double weight_of_normals = 1.5;
 constexpr std::size_t faces_in_parallel = 8192, ordered_to = 4;
 // Clusters are not smaller than this share of a mesh, so that their ends differ as doubles.
@@ -59,8 +58,7 @@ Split split(std::span<Item> items) {
     return {below, before / area};
 }
 
-// The number of the n clusters that are made of the first s.below of `all` items. Groups that coarser patches join stay
-// together.
+// The number of the n clusters that are made of the first s.below of `all` items. Groups that coarser patches join stay together.
 std::size_t clusters_below(std::size_t n, const Split& s, std::size_t all) {
     constexpr std::size_t group = FaceClusters::joined;
     const std::size_t unit = n >= 2 * group ? group : 1;

@@ -1,9 +1,8 @@
-// Faces of a mesh that are smaller than patches, joined into clusters: near each other, with similar normals, and of
-// about equal area. All faces stand in one order, in which each cluster is a range whose neighbours are close, too: a
-// range is halved at the mean of whatever varies most, of positions and of normals (top-down as in Wald, On fast
-// construction of SAH-based bounding volume hierarchies, 2007; clusters of faces for radiosity: Willmott, Heckbert and
-// Garland, Face cluster radiosity, 1999). The place of a face is the share of area before it in this order, so every
-// range of places is sampled uniformly by area.
+// Faces of a mesh that are smaller than patches, joined into clusters: near each other, with similar normals, and of about equal
+// area. All faces stand in one order, in which each cluster is a range whose neighbours are close, too: a range is halved at the
+// mean of whatever varies most, of positions and of normals (top-down as in Wald, On fast construction of SAH-based bounding volume
+// hierarchies, 2007; clusters of faces for radiosity: Willmott, Heckbert and Garland, Face cluster radiosity, 1999). The place of a
+// face is the share of area before it in this order, so every range of places is sampled uniformly by area.
 #pragma once
 
 #include "core/geometry/geometry.h"
@@ -16,9 +15,8 @@ namespace neumann {
 
 class FaceClusters {
 public:
-    // Joins the `faces` of a mesh or of an instance, each with an area, to at most `clusters` clusters, and no more
-    // than there are faces. O(n log n). Other instances of the mesh have the same clusters if the maps stretch all
-    // directions alike.
+    // Joins the `faces` of a mesh or of an instance, each with an area, to at most `clusters` clusters, and no more than there are
+    // faces. O(n log n). Other instances of the mesh have the same clusters if the maps stretch all directions alike.
     FaceClusters(const Geometry& geometry, std::uint32_t shape, std::vector<std::uint32_t> faces, std::size_t clusters);
 
     // The ends of the clusters: 0, …, 1, shares of the area.

@@ -2,10 +2,9 @@
 // chart and divide it (discontinuity meshing). The radiance jumps across such a line (the floor under a box, the
 // ceiling above a lamp), so patches do not reach across it and fields are not interpolated across it.
 //
-// Light in a narrow gap is reflected to and fro many times and moves on by about the gap's width each time. The light
-// that leaks out therefore comes from a depth of a few widths, and larger patches would mix it with light that stays
-// inside. Along the mouth of a gap both surfaces are divided into bands, each a fifth narrower than the next one
-// inwards.
+// Light in a narrow gap is reflected to and fro many times and moves on by about the gap's width each time. The light that leaks
+// out therefore comes from a depth of a few widths, and larger patches would mix it with light that stays inside. Along the mouth
+// of a gap both surfaces are divided into bands, each a fifth narrower than the next one inwards.
 #pragma once
 
 #include "operators/fields/patches/chart.h"

@@ -33,8 +33,7 @@ struct Facet {
 
 class PatchSpace {
 public:
-    // `sides` has one entry for each shape. Throws InputError as Patches does, and if the unknowns do not fit in 32
-    // bits.
+    // `sides` has one entry for each shape. Throws InputError as Patches does, and if the unknowns do not fit in 32 bits.
     PatchSpace(const Geometry& geometry, const Patching& patching, std::vector<SideDirections> sides)
         : PatchSpace(Patches(geometry, patching), std::move(sides)) {}
 

@@ -1,5 +1,4 @@
-// T shared among processes: each has the rows of its own facets, with the same rays as in RayTable, and never those of
-// others.
+// T shared among processes: each has the rows of its own facets, with the same rays as in RayTable, and never those of others.
 //
 // A row lists slots: the process's own unknowns 0 … own() − 1, then the unknowns of others that its rays see, and a
 // last one for nothing(). They take four bytes a ray, as in RayTable.
@@ -24,8 +23,7 @@ public:
                KeptRows* kept = nullptr);
 
     const PatchSpace& space() const { return *space_; }
-    // The numbers of this process's facets; first_of(i) is the first own unknown of the i-th of them, and row(i) its
-    // rays.
+    // The numbers of this process's facets; first_of(i) is the first own unknown of the i-th of them, and row(i) its rays.
     std::span<const std::uint32_t> facets() const { return facets_; }
     std::uint32_t first_of(std::size_t i) const { return first_of_facet_[i]; }
     std::span<const std::uint32_t> row(std::size_t i) const {
@@ -36,8 +34,7 @@ public:
     std::uint32_t own() const { return own_; }
     std::uint32_t slots() const { return own_ + static_cast<std::uint32_t>(others_.size()) + 1; }
     std::uint32_t nothing() const { return slots() - 1; }
-    // first() is the number of the first own unknown among all unknowns, number() that of a slot, and all() is how many
-    // there are.
+    // first() is the number of the first own unknown among all unknowns, number() that of a slot, and all() is how many there are.
     std::uint32_t first() const { return first_; }
     std::uint32_t number(std::uint32_t slot) const { return slot < own_ ? first_ + slot : others_[slot - own_]; }
     std::uint32_t all() const { return all_; }

@@ -1,7 +1,6 @@
-// Bidirectional path tracing: traces a subpath from the camera and one from a light, and connects every vertex of one
-// to every vertex of the other (Veach and Guibas 1994; Lafortune and Willems 1993). Strategy (s, t), here called a way,
-// has s vertices from the light and t from the camera, the first of which is on the lens, and makes paths of bounce
-// s + t − 2:
+// Bidirectional path tracing: traces a subpath from the camera and one from a light, and connects every vertex of one to every
+// vertex of the other (Veach and Guibas 1994; Lafortune and Willems 1993). Strategy (s, t), here called a way, has s vertices from
+// the light and t from the camera, the first of which is on the lens, and makes paths of bounce s + t − 2:
 //
 //     (0, t)  the camera subpath hits a light            (1, t)  its last vertex samples the lights
 //     (s, 1)  a light vertex is connected to the lens    (s, t)  two vertices are connected

@@ -81,8 +81,7 @@ CameraEdge emission_edge(const Scene& scene, std::uint32_t walker, const Emissio
     return *edge;
 }
 
-// Casts the shadow rays of the edges, which all start at the j-th vertices, and calls splatted(k) for those that are
-// visible.
+// Casts the shadow rays of the edges, which all start at the j-th vertices, and calls splatted(k) for those that are visible.
 template <class Transport, class OnSplat, class Observer>
 void splat_what_is_seen(const Transport& T, const LightWalkers& walkers, const std::vector<CameraEdge>& edges, int j,
                         const OnSplat& splatted, const Observer& observer) {

@@ -27,8 +27,7 @@ struct JoiningEdge {
     Found found;
 };
 
-// The edge of way (1, t): z samples the lights. `rest` means that the bounce is beyond N, where ways with s ≥ 2 are not
-// used.
+// The edge of way (1, t): z samples the lights. `rest` means that the bounce is beyond N, where ways with s ≥ 2 are not used.
 inline JoiningEdge edge_to_light(const Scene& scene, const EmissionSampler& emission, const LightSampler& lights, Heuristic h,
                                  const CameraWalker& z, const SurfaceSide& side, int bounce, bool rest, const Vec2& u) {
     const LightSample light = lights.sample(z.x.position, u);

@@ -3,10 +3,9 @@
 //
 //     E = π/(MN) Σ L_jk,    sin²θ from j/M to (j + 1)/M, φ from 2π k/N to 2π (k + 1)/N
 //
-// The derivatives of E are those of light that is constant in each cell (Ward and Heckbert, Irradiance Gradients,
-// 1992). If the normal turns, the cosines change: ∂E/∂n = ∫ L ω dω, of which the part in the tangent plane counts. If
-// the point moves by u, the boundary between two cells is seen to move as the nearer of the two surfaces there, at the
-// distance r:
+// The derivatives of E are those of light that is constant in each cell (Ward and Heckbert, Irradiance Gradients, 1992). If the
+// normal turns, the cosines change: ∂E/∂n = ∫ L ω dω, of which the part in the tangent plane counts. If the point moves by u, the
+// boundary between two cells is seen to move as the nearer of the two surfaces there, at the distance r:
 //
 //     ∂E/∂u = Σ ΔL ∫ (n·q) (dl × q)·u / |q|⁴,   q from the point to the boundary, |q| = r, ΔL the difference across it
 //
@@ -35,8 +34,7 @@ public:
     double weight() const;
     // The weights of L of a cell in ∂E/∂n, along x and y.
     const Vec2& rotation(std::size_t cell) const { return rotation_[cell]; }
-    // Finds the weights of L of each cell in ∂E/∂u, along x and y, from 1/r of each cell, which is 0 where nothing was
-    // hit.
+    // Finds the weights of L of each cell in ∂E/∂u, along x and y, from 1/r of each cell, which is 0 where nothing was hit.
     void translation(std::span<const double> inverse_distances, std::span<Vec2> weights) const;
     // ∂²E/∂x², ∂²E/∂x∂y and ∂²E/∂y².
     Vec3 hessian(std::span<const double> radiance, std::span<const double> inverse_distances) const;

@@ -1,6 +1,5 @@
-// The records near a point: an R-tree of the cubes within which they are read (Boost.Geometry), and how far each is
-// read in each direction. A record is not read behind objects that stand on its surface, for example on another room's
-// floor.
+// The records near a point: an R-tree of the cubes within which they are read (Boost.Geometry), and how far each is read in each
+// direction. A record is not read behind objects that stand on its surface, for example on another room's floor.
 #pragma once
 
 #include "core/sampling/warp.h"

@@ -1,14 +1,12 @@
-// Fills an irradiance cache pass by pass: every record sends out new rays, and then its bounces are computed one after
-// another,
+// Fills an irradiance cache pass by pass: every record sends out new rays, and then its bounces are computed one after another,
 //
 //     E_1 = A L_1,    E_k = A (ρ/π E_{k−1}),    Σ_{k>N} E_k by the same recursion
 //
-// where A stands for the rays of all records at once. Each ray brings direct light and, from the first diffuse surface
-// with records nearby, the E of one of these, chosen at random in proportion to its weight. Only the camera uses
-// derivatives: without them a row of A ρ/π is an average, ‖A ρ/π‖∞ ≤ the largest albedo, and the recursion converges
-// where the series is sure to. A record's rays serve all its bounces, so that the terms of a pass are those of one
-// matrix. If light comes back to a record, the mean over passes is off by a part of about 1 / n, where n is the number
-// of rays of all records.
+// where A stands for the rays of all records at once. Each ray brings direct light and, from the first diffuse surface with records
+// nearby, the E of one of these, chosen at random in proportion to its weight. Only the camera uses derivatives: without them a row
+// of A ρ/π is an average, ‖A ρ/π‖∞ ≤ the largest albedo, and the recursion converges where the series is sure to. A record's rays
+// serve all its bounces, so that the terms of a pass are those of one matrix. If light comes back to a record, the mean over passes
+// is off by a part of about 1 / n, where n is the number of rays of all records.
 #pragma once
 
 #include "core/sampling/sampler.h"

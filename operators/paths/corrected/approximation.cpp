@@ -13,8 +13,7 @@ namespace {
 
 constexpr std::uint64_t field_stream = 0x636f7272656374ull;
 constexpr std::uint32_t most_light_samples = 64;
-// The part of the uniform density in the density of points; the other part is proportional to the brightness of the
-// fields.
+// The part of the uniform density in the density of points; the other part is proportional to the brightness of the fields.
 constexpr double uniform_share = 0.3;
 // α of the tables of directions (guided/direction_tables.h).
 constexpr double share_of_cosine = 0.5;

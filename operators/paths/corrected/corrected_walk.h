@@ -176,8 +176,7 @@ NEUMANN_HOT void CorrectedWalk::operator()(CorrectedWalkers& walkers, const Ligh
             }
         };
 
-        // R at the vertices of a walk: samples the lights. At first diffuse vertices it does so more often and splits
-        // the walk.
+        // R at the vertices of a walk: samples the lights. At first diffuse vertices it does so more often and splits the walk.
         walkers.single.clear();
         walkers.splitting.clear();
         for (const std::uint32_t i : walkers.alive) {

@@ -33,8 +33,7 @@ public:
     // (Talbot, Cline and Egbert, Importance resampling for global illumination, 2005).
     struct Chosen {
         std::uint32_t point;
-        // weight · V(x, y) · ê(y) estimates ∫ min(g, c) V e dA, g = cosθx cosθy / (π d²); 0 if no candidate
-        // contributes.
+        // weight · V(x, y) · ê(y) estimates ∫ min(g, c) V e dA, g = cosθx cosθy / (π d²); 0 if no candidate contributes.
         double weight;
     };
     // `clamp` is c, and `u` a random number in [0, 1).

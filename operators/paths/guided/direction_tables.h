@@ -1,7 +1,6 @@
-// Tables for path guiding: incident radiance sampling (Dutré, Bekaert and Bala, Advanced Global Illumination, 8.6.2),
-// with fields on patches in place of photons. For each facet and each number of bounces still wanted there is a density
-// of the next direction on a grid of cells, a mixture of the cosine density and a density in proportion to what the
-// facet's rays see:
+// Tables for path guiding: incident radiance sampling (Dutré, Bekaert and Bala, Advanced Global Illumination, 8.6.2), with fields
+// on patches in place of photons. For each facet and each number of bounces still wanted there is a density of the next direction
+// on a grid of cells, a mixture of the cosine density and a density in proportion to what the facet's rays see:
 //
 //     pdf(ω) = cosθ/π (α + (1 − α) w / mean w),     w² = Σ_k (K^k Le)² / m_k,   k = 1 … number of bounces still wanted
 //
@@ -36,8 +35,7 @@ public:
     static constexpr int most_terms = 16;
     static int terms(int bounces) { return std::clamp(bounces - 1, 1, most_terms); }
 
-    // `fields` has at least terms(settings.bounces) bounces. Keeps a reference to their space. Throws Stopped if
-    // `watch` stops it.
+    // `fields` has at least terms(settings.bounces) bounces. Keeps a reference to their space. Throws Stopped if `watch` stops it.
     DirectionTables(const FieldStack& fields, const TableSettings& settings, const Watch& watch = {});
     // The size of the tables of a facet in bytes.
     static constexpr std::size_t bytes_of_facet = most_tables * sizeof(CellDistribution);

@@ -29,8 +29,7 @@ public:
     ChainBatch(const Scene& scene, const Bidirectional& bidirectional, const FilmArea& area, int bounce)
         : scene_(&scene), bidirectional_(&bidirectional), area_(&area), bounce_(bounce) {}
 
-    // Starts chains at states of these independent paths, which are traced again. `random` has random numbers for each
-    // chain.
+    // Starts chains at states of these independent paths, which are traced again. `random` has random numbers for each chain.
     template <class Observer = NoObserver>
     void start(const IndependentPaths& paths, std::uint64_t replicate, std::span<const ChainStart> starts,
                std::vector<Sampler> random, std::span<std::uint64_t> counts, const Observer& observer = {});
@@ -48,8 +47,7 @@ public:
     int way(std::uint32_t chain) const { return states_[chain].s; }
     bool is_new(std::uint32_t chain) const { return stay_[chain] == 1; }
     bool by_large(std::uint32_t chain) const { return is_large_[chain] != 0; }
-    // The chains whose last proposal has a contribution that is not a finite number; the proposal counts as one without
-    // light.
+    // The chains whose last proposal has a contribution that is not a finite number; the proposal counts as one without light.
     std::span<const std::uint32_t> non_finite() const { return non_finite_; }
 
 private:

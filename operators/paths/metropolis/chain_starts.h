@@ -25,16 +25,14 @@ private:
     std::vector<double> sums_;
 };
 
-// The start of a chain is the first state of a group at which the sum of the group's f of this bounce is more than
-// `left`.
+// The start of a chain is the first state of a group at which the sum of the group's f of this bounce is more than `left`.
 struct WantedStart {
     std::uint32_t group = 0, chain = 0;
     int bounce = 0;
     double left = 0.0;
 };
-// Chooses the starts of this number of chains for each bounce from 1 on that has any brightness, at even distances
-// (systematic resampling) from a random beginning: `u` has a number in [0, 1) for each bounce. Sorted by group, bounce
-// and `left`.
+// Chooses the starts of this number of chains for each bounce from 1 on that has any brightness, at even distances (systematic
+// resampling) from a random beginning: `u` has a number in [0, 1) for each bounce. Sorted by group, bounce and `left`.
 std::vector<WantedStart> choose_starts(const BrightnessSums& sums, std::uint32_t chains, std::span<const double> u);
 
 // The path of the replicate and its way s at which a chain starts. s = −1 means that there is none.

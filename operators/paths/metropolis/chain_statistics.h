@@ -21,10 +21,9 @@ struct ChainStatistics {
     void merge(const ChainStatistics& other);
 
     double acceptance() const;  // of small steps
-    // The integrated autocorrelation time of the position on the film, in states: this many states of a chain are worth
-    // one independent state. It is found from the spread of the chains' means, so it is at most the length of a chain,
-    // which it reaches if chains do not move at all. The larger of both axes; 0 if nothing was sampled or all positions
-    // are the same.
+    // The integrated autocorrelation time of the position on the film, in states: this many states of a chain are worth one
+    // independent state. It is found from the spread of the chains' means, so it is at most the length of a chain, which it reaches
+    // if chains do not move at all. The larger of both axes; 0 if nothing was sampled or all positions are the same.
     double autocorrelation_time() const;
 };
 

@@ -1,5 +1,4 @@
-// Independent bidirectional paths, which give the brightness of each bounce, the states from which its chains start,
-// and the rest.
+// Independent bidirectional paths, which give the brightness of each bounce, the states from which its chains start, and the rest.
 //
 // A path draws two subpaths from numbers u, and has a contribution w C(s, u) for each way (s, t). A chain of bounce k walks among
 // the states (s, u) in proportion to f(s, u) = the mean channel of w C(s, u), s + t = k + 2 (Hachisuka, Kaplanyan and Dachsbacher,
@@ -50,8 +49,7 @@ public:
     std::uint32_t paths_of_group(std::uint32_t group) const { return std::min(chains_at_once, paths_ - group * chains_at_once); }
     const FilmArea& area() const { return area_; }
 
-    // The random numbers of both subpaths of a path come from copies of these samplers, started at number(replicate,
-    // path).
+    // The random numbers of both subpaths of a path come from copies of these samplers, started at number(replicate, path).
     Sampler camera_numbers() const { return Sampler(kind_, net_, seed_, of_camera); }
     Sampler light_numbers() const { return Sampler(kind_, net_, seed_, of_light); }
     std::uint64_t number(std::uint64_t replicate, std::uint32_t path) const {

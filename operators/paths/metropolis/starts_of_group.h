@@ -1,5 +1,4 @@
-// Finds the paths at which chains start once more, because only sums of f over groups of paths are kept
-// (chain_starts.h).
+// Finds the paths at which chains start once more, because only sums of f over groups of paths are kept (chain_starts.h).
 #pragma once
 
 #include "operators/paths/metropolis/chain_starts.h"

@@ -1,5 +1,4 @@
-// A pass of photons that does not enter the pictures: it chooses the radii, and shows where the power of the lights
-// goes.
+// A pass of photons that does not enter the pictures: it chooses the radii, and shows where the power of the lights goes.
 #pragma once
 
 #include "core/base/memory.h"

@@ -39,8 +39,7 @@ struct PhotonWalkers : Walkers {
     std::vector<Rgb> light;  // light that was read, for each quantity
 };
 
-// The `quantities` of a walk are its terms 0 … N and the rest, followed by what each of them loses if the radii are
-// divided by √2.
+// The `quantities` of a walk are its terms 0 … N and the rest, followed by what each of them loses if the radii are divided by √2.
 class PhotonWalk {
 public:
     // Keeps references.

@@ -1,7 +1,6 @@
-// Walks that use each other's tails (Bekaert, Sbert and Halton, Accelerating Path Tracing by Re-Using Paths, 2002). The
-// walk of each pixel p reaches its first diffuse vertex x_p after d_p − 1 reflections, and by the next one it reaches
-// y_p. The light that the tail of the walk of q then brings to y_q leaves a diffuse y_q in all directions alike, so
-// that all x_p of a group can use it:
+// Walks that use each other's tails (Bekaert, Sbert and Halton, Accelerating Path Tracing by Re-Using Paths, 2002). The walk of
+// each pixel p reaches its first diffuse vertex x_p after d_p − 1 reflections, and by the next one it reaches y_p. The light that
+// the tail of the walk of q then brings to y_q leaves a diffuse y_q in all directions alike, so that all x_p of a group can use it:
 //
 //     K^{d_p + k} Le at pixel p  ≈  Σ_q β_p ρ_p g(x_p, y_q) V(x_p, y_q) L_q / Σ_r g(x_r, y_q) V(x_r, y_q),   k ≥ 1
 //

@@ -1,5 +1,4 @@
-// The continuation of a walk: how the direction of its next reflection is drawn, and with which density. Each is a
-// class with
+// The continuation of a walk: how the direction of its next reflection is drawn, and with which density. Each is a class with
 //
 //     Place                       the result of place(x, wo, wanted) for a vertex, found for all walks before any
 //                                 reflection to hide the latency of memory; `wanted` is the number of later bounces

@@ -5,8 +5,7 @@
 
 namespace neumann {
 
-// This is compiled with -fno-trapping-math (CMakeLists.txt), because otherwise the compiler may not compute both sides
-// of a choice.
+// This is compiled with -fno-trapping-math (CMakeLists.txt), because otherwise the compiler may not compute both sides of a choice.
 NEUMANN_HOT void DiffusePacket::compute(double directions, double weighted_directions) {
     for (std::size_t j = 0; j < size; ++j) {
         const Vec3 normal = normal_[j];

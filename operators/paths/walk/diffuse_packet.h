@@ -1,7 +1,6 @@
-// R for eight walks at once where it is simple: at flat surfaces of constant diffuse reflectance, with light samples on
-// surfaces that shine evenly. The arithmetic is that of choose_question() (ask_light.h) and of Diffuse::sample(), in
-// the same order, so the results have the same bits. Walks are side by side in memory, so that compilers make vector
-// instructions of it.
+// R for eight walks at once where it is simple: at flat surfaces of constant diffuse reflectance, with light samples on surfaces
+// that shine evenly. The arithmetic is that of choose_question() (ask_light.h) and of Diffuse::sample(), in the same order, so the
+// results have the same bits. Walks are side by side in memory, so that compilers make vector instructions of it.
 #pragma once
 
 #include "operators/paths/walk/direct_light.h"

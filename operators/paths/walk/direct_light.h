@@ -11,13 +11,11 @@
 
 namespace neumann {
 
-// Whether the strategy cannot find some light: no ray meets a light without extent, and points on surfaces miss an
-// environment.
+// Whether the strategy cannot find some light: no ray meets a light without extent, and points on surfaces miss an environment.
 bool misses_light(DirectLight direct, const Emitters& emitters);
 
-// A light sample before its shadow ray is cast. The ray finds whether `point` is visible or, if directions are sampled,
-// what is visible along `w`. `weight` is Le / pdf of a point, or 1 / pdf of a direction, which multiplies the Le that
-// is found.
+// A light sample before its shadow ray is cast. The ray finds whether `point` is visible or, if directions are sampled, what is
+// visible along `w`. `weight` is Le / pdf of a point, or 1 / pdf of a direction, which multiplies the Le that is found.
 using LightQuestion = LightSample;
 
 class DirectLightSampler {
@@ -46,8 +44,7 @@ public:
                 return lights_.sample(receiver(side), sampler.next2(), question);
         }
     }
-    // Whether ask() finds points on surfaces that shine evenly, independently of the vertex; ask_even_point() samples
-    // such a point.
+    // Whether ask() finds points on surfaces that shine evenly, independently of the vertex; ask_even_point() samples such a point.
     bool asks_even_points() const { return asks_even_points_; }
     EvenPoint ask_even_point(const Vec2& u) const { return lights_.sample_even_point(u); }
     // The MIS weights of a light sample, and of light that the BSDF's direction has hit at y. `pdf_of_material` is that

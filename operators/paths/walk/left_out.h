@@ -7,16 +7,13 @@
 namespace neumann {
 
 struct LeftOut {
-    // V(x, y) = 1 for points x and y of surfaces that are not in one plane: all surfaces lie on the boundary of a
-    // convex body.
+    // V(x, y) = 1 for points x and y of surfaces that are not in one plane: all surfaces lie on the boundary of a convex body.
     bool shadow_rays_in_room = false;
-    // No side that reflects sees a surface: rays that leave it hit nothing, and it is never in shadow above its
-    // horizon.
+    // No side that reflects sees a surface: rays that leave it hit nothing, and it is never in shadow above its horizon.
     bool rays_from_surfaces = false;
     // No ray can hit a light: the ray after the last reflection is needed only for the rest.
     bool rays_for_light = false;
-    // BSDF sampling alone finds the light, which is the same everywhere: multiple importance sampling takes no light
-    // samples.
+    // BSDF sampling alone finds the light, which is the same everywhere: multiple importance sampling takes no light samples.
     bool questions = false;
 };
 

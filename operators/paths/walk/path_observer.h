@@ -34,8 +34,7 @@ public:
     // Whether path number i, counted from 0, is to be reported.
     virtual bool watches(std::uint32_t) const { return true; }
     virtual void step(std::uint32_t path, const PathStep& step) = 0;
-    // The contribution of a path's last step. `pixel` is the position on the film if a path from a light found it,
-    // otherwise null.
+    // The contribution of a path's last step. `pixel` is the position on the film if a path from a light found it, otherwise null.
     virtual void found(std::uint32_t, std::size_t /*quantity*/, const Rgb&, const Vec2* /*pixel*/) {}
     // A photon map or a cache was read at the path's vertex. For the photon with the largest contribution, `read_path`
     // and `vertex` are the path from a light that left it and the vertex there. For the record with the largest

@@ -27,8 +27,7 @@ struct TreeMoments {
 
 // The variance × cost of m_j samples at depth j for each camera ray, m_0 = 1.
 double work_of(const TreeMoments& tree, std::span<const double> numbers);
-// The numbers for each camera ray for which work_of() is least. At most 10 depths, because the choices are tried one by
-// one.
+// The numbers for each camera ray for which work_of() is least. At most 10 depths, because the choices are tried one by one.
 std::vector<double> best_tree(const TreeMoments& tree);
 
 // The cost of a tree in walks: Σ_j c_j m_j / Σ_j c_j, with ratios[j − 1] = m_j / m_{j−1}, and 1 for deeper ones. `cost`

@@ -21,8 +21,7 @@ struct TreeGoal {
 constexpr int most_depths_of_tree = 8;
 
 struct TreeRatios {
-    // m_j / m_{j−1} for j = 1 …, within 1/10 … 16, and with at most 256 branches, because the pilot may have missed
-    // something.
+    // m_j / m_{j−1} for j = 1 …, within 1/10 … 16, and with at most 256 branches, because the pilot may have missed something.
     std::vector<double> of_depths;
     std::uint64_t rays = 0;  // cast by the pilot
 };

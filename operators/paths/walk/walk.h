@@ -126,8 +126,7 @@ NEUMANN_HOT void walk_on(const Scene& scene, const Transport& T, const DirectLig
     }
 }
 
-// Samples all terms along some camera rays: T finds the first vertices, where Le is added, and walk_on() samples the
-// others.
+// Samples all terms along some camera rays: T finds the first vertices, where Le is added, and walk_on() samples the others.
 template <class Transport, class Sampler, class Continuation = MaterialContinuation, class Observer = NoObserver>
 void walk(const Scene& scene, const Transport& T, const DirectLightSampler& direct, const WalkSettings& settings,
           std::span<const CameraRay> rays, std::span<Sampler> samplers, Walkers& walkers, TermSamples& out,

@@ -134,9 +134,8 @@ void FieldGather::arrive(const FieldStack& field, const PixelRay& l, const Patch
                          std::span<const float> by_links, std::vector<double>& arriving) const {
     const std::size_t rest = stride_ - 3;
     std::fill(arriving.begin(), arriving.end(), 0.0);
-    // Linear interpolation between the centres of patches does not preserve their means and would lose up to some
-    // percent of a bounce. A diffuse surface can gather the piecewise constant field, because patches do not show
-    // there.
+    // Linear interpolation between the centres of patches does not preserve their means and would lose up to some percent of a
+    // bounce. A diffuse surface can gather the piecewise constant field, because patches do not show there.
     if (l.diffuse)
         field.add(field.space().unknown(l.y, -l.wi), 0, 1.0, arriving.data());
     else

@@ -1,5 +1,4 @@
-// Gather rays apply K once more at a pixel: to the fields that a ray finds on patches, directly or by mirrors and
-// glass.
+// Gather rays apply K once more at a pixel: to the fields that a ray finds on patches, directly or by mirrors and glass.
 #pragma once
 
 #include "operators/fields/matrix/field_stack.h"

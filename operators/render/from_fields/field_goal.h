@@ -35,11 +35,10 @@ struct FieldRun {
 // The settings of the first render of a search, with the fewest patches, rays and samples.
 FieldSettings first_of_search(FieldSettings settings, const FieldSettings& most);
 
-// Renders with growing settings until a limit is reached. A render that is predicted to exceed the time is not started;
-// one that exceeds it by a tenth and a second is dropped. Without an error to reach, the search goes on while each step
-// lowers the error by a twentieth. If interrupted or out of time, it returns the result of the previous render. Before
-// the first is finished, it returns nothing if interrupted, and throws RunError if out of time. It does not call
-// watch.judge.
+// Renders with growing settings until a limit is reached. A render that is predicted to exceed the time is not started; one that
+// exceeds it by a tenth and a second is dropped. Without an error to reach, the search goes on while each step lowers the error by
+// a twentieth. If interrupted or out of time, it returns the result of the previous render. Before the first is finished, it
+// returns nothing if interrupted, and throws RunError if out of time. It does not call watch.judge.
 //
 // `team`: the processes that render with this one; null if there are none. `saving`: saves each render but the first. A
 // search that starts from a saved render goes on with that one as soon as it has the errors of smaller ones, and

@@ -114,9 +114,8 @@ private:
     RayResolution resolution_;
 };
 
-// The relative error of a whole picture (as relative_standard_error()) from sampling, from discretisation, and from
-// both. Noise of the rays also makes the fine and the coarse fields differ; that part is subtracted from the
-// discretisation error.
+// The relative error of a whole picture (as relative_standard_error()) from sampling, from discretisation, and from both. Noise of
+// the rays also makes the fine and the coarse fields differ; that part is subtracted from the discretisation error.
 struct PictureError {
     double sampling = 0.0, discretisation = 0.0;
     double all() const { return std::hypot(sampling, discretisation); }

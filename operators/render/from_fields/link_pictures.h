@@ -1,7 +1,6 @@
-// Pictures of light that comes by links (operators/fields/matrix/link_light.h) to diffuse sides. Reflected off a mirror
-// or refracted through glass it draws sharp figures, caustics, which patches would blur. Where the camera sees the end
-// of such a path, the path is added to the pixels there; where the end is seen in a mirror or through glass, it is read
-// from a raster.
+// Pictures of light that comes by links (operators/fields/matrix/link_light.h) to diffuse sides. Reflected off a mirror or
+// refracted through glass it draws sharp figures, caustics, which patches would blur. Where the camera sees the end of such a path,
+// the path is added to the pixels there; where the end is seen in a mirror or through glass, it is read from a raster.
 #pragma once
 
 #include "core/scene/scene.h"
@@ -14,8 +13,7 @@
 
 namespace neumann {
 
-// Whether the ends of such paths can be joined to the camera: not if it looks through lights, nor if it is a single
-// ray.
+// Whether the ends of such paths can be joined to the camera: not if it looks through lights, nor if it is a single ray.
 bool shows_links(const Scene& scene);
 
 struct LinkPictures {

@@ -30,8 +30,7 @@ struct BlockCosts {
     std::span<const double> variance(std::size_t k) const { return std::span(variances).subspan(k * blocks, blocks); }
 };
 
-// The s_b that minimise `least`, with Σ c_b s_b = Σ c_b, for the variances of bounces, of the sum, or of both, sum
-// last.
+// The s_b that minimise `least`, with Σ c_b s_b = Σ c_b, for the variances of bounces, of the sum, or of both, sum last.
 std::vector<double> best_numbers(const BlockCosts& costs, LeastError least);
 // The powers of 2 nearest to σ s_b, as exponents within ±most, with the largest σ at which they cost no more than
 // `budget`. `below`: what becomes of smaller exponents: −most, or no samples.

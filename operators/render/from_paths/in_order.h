@@ -1,5 +1,4 @@
-// Makes pieces of work in any order, on all threads, and adds them in a fixed one: the same bits on any number of
-// threads.
+// Makes pieces of work in any order, on all threads, and adds them in a fixed one: the same bits on any number of threads.
 #pragma once
 
 #include <oneapi/tbb/info.h>

@@ -1,7 +1,6 @@
-// Samples the terms by Metropolis light transport (operators/paths/metropolis), with chains for each bounce, since each
-// term is a bounce. A replicate is a whole picture and has its own independent paths, from which its own chains start,
-// so that replicates are independent of each other. Bounce 0 is sampled by camera rays, and the rest by the independent
-// paths.
+// Samples the terms by Metropolis light transport (operators/paths/metropolis), with chains for each bounce, since each term is a
+// bounce. A replicate is a whole picture and has its own independent paths, from which its own chains start, so that replicates are
+// independent of each other. Bounce 0 is sampled by camera rays, and the rest by the independent paths.
 //
 // Mutation j of a replicate belongs to one chain of each bounce: path j % 64 of step (j / 64) % length of batch j / 64
 // / length. It shares its name with camera ray j, for bounce 0, and independent path j, for the rest.

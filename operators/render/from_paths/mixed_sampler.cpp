@@ -111,8 +111,7 @@ bool MixedSampler::sample_picture(std::uint64_t replicate, std::vector<Rgb>& pic
         });
         const auto rename = [&](SamplePlace& place) { place.name.sample = place.name.sample * parts + part; };
         for (NonFiniteSample& sample : counted.non_finite) rename(sample.place);
-        // The method itself found these samples large. If the blocks' weights differ, some that it did not keep may be
-        // larger.
+        // The method itself found these samples large. If the blocks' weights differ, some that it did not keep may be larger.
         for (std::size_t q = 0; q < Q; ++q) {
             const LargestSamples of = std::exchange(counted.largest[q], {});
             counted.largest[q].outdo(tally.largest[q]);

@@ -12,8 +12,7 @@
 
 namespace neumann {
 
-// Gets the samples of a group of pixels, path by path with all quantities of a path together, and their rays; on any
-// thread.
+// Gets the samples of a group of pixels, path by path with all quantities of a path together, and their rays; on any thread.
 using OwnSamples = std::function<void(const PixelGroup&, std::span<const Rgb> samples, std::span<const std::uint64_t> rays)>;
 
 // Calls f(group) for all groups of pixels, on all threads; false if `watch` stops it.

@@ -91,8 +91,7 @@ public:
     // Whether a walk goes on until its roulette ends it: its cost in a furnace is then known.
     virtual bool ends_by_roulette() const { return false; }
 
-    // Why its paths are not checked, have no balance of energy, or a pixel no history, in words; "" if there is no
-    // reason.
+    // Why its paths are not checked, have no balance of energy, or a pixel no history, in words; "" if there is no reason.
     virtual std::string why_no_checkup() const { return ""; }
     virtual std::string why_no_balance() const { return ""; }
     virtual std::string why_no_history() const { return ""; }

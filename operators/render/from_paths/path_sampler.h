@@ -63,8 +63,7 @@ public:
     virtual void retrace_read(std::uint64_t replicate, std::uint32_t path, PathObserver& observer) const;
     virtual std::unique_ptr<const PathsToInspect> to_inspect() const;
 
-    // For several methods together: the one that made a sample, and the sample's name there. A single method has no
-    // parts.
+    // For several methods together: the one that made a sample, and the sample's name there. A single method has no parts.
     struct OfPart {
         const PictureSampler& sampler;
         SampleName name;

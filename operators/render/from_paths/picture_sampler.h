@@ -41,8 +41,7 @@ public:
 
     // The same node in shares: of pixels, about as many as `pieces`, or of whole pictures.
     std::vector<Share> shares(std::uint64_t first, std::uint64_t count, std::uint32_t pieces) const;
-    // Samples one share, without keeping samples too small for `tally`, which holds earlier replicates. Nothing if
-    // stopped.
+    // Samples one share, without keeping samples too small for `tally`, which holds earlier replicates. Nothing if stopped.
     std::optional<SampledShare> sample(const Share& share, const Tally& tally, const Watch& watch = {}) const;
     // The node, joined from shares; `next` is called for each of them in turn.
     std::optional<MomentsNode> join(std::uint64_t first, std::uint64_t count, std::uint32_t pieces, Tally& tally,

@@ -15,9 +15,8 @@
 
 namespace neumann {
 
-// Calls trace(group, work), which samples these pixels of the replicate into work.group.samples. A Workspace is
-// constructed from the number of quantities and has a group, an average and a tally. Otherwise like
-// PathSampler::sample_picture().
+// Calls trace(group, work), which samples these pixels of the replicate into work.group.samples. A Workspace is constructed from
+// the number of quantities and has a group, an average and a tally. Otherwise like PathSampler::sample_picture().
 template <class Workspace, class Trace>
 bool sample_groups(const SamplingSettings& settings, const SampleLayout& layout, std::uint64_t replicate, std::vector<Rgb>& picture,
                    SampleRanges& ranges, Tally& tally, const Watch& watch, const Trace& trace) {

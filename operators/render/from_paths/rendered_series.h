@@ -66,13 +66,12 @@ std::uint32_t replicate_size(std::uint64_t samples);
 // number, would have more error with as many samples than large ones with fewer.
 std::uint64_t in_whole_replicates(std::uint64_t samples);
 
-// Renders a series until the goal is reached. A render that is stopped by time or error ends at a number of samples
-// from which replicate_size() gives the same replicate size again, and so does one that is interrupted, unless that
-// would take long. If the time is enough for more replicates than that, because they are small, it ends before the time
-// is up: larger replicates would be better (larger_replicates). One that continues another keeps its replicates,
-// whatever their number. An interrupted render drops the samples that not all pixels have; if that is all of them, it
-// renders one sample per pixel. The bits depend neither on how a render was divided nor on the helpers, and the seconds
-// of the goal are those of all parts.
+// Renders a series until the goal is reached. A render that is stopped by time or error ends at a number of samples from which
+// replicate_size() gives the same replicate size again, and so does one that is interrupted, unless that would take long. If the
+// time is enough for more replicates than that, because they are small, it ends before the time is up: larger replicates would be
+// better (larger_replicates). One that continues another keeps its replicates, whatever their number. An interrupted render drops
+// the samples that not all pixels have; if that is all of them, it renders one sample per pixel. The bits depend neither on how a
+// render was divided nor on the helpers, and the seconds of the goal are those of all parts.
 RenderedSeries render_series(const Scene& scene, const PictureSampler::Settings& settings, const SamplingGoal& goal,
                              const Watch& watch = {}, Continuation continuation = {}, Helpers* helpers = nullptr);
 

@@ -90,8 +90,7 @@ MethodTrial described(const MethodPilot& trial, double error) {
     return {name_of(trial.candidate.method), trial.rays / trial.samples, std::sqrt(error)};
 }
 
-// Takes a method with a bias if its error after the work of `choice` is clearly smaller. `work`: for a squared error of
-// 1.
+// Takes a method with a bias if its error after the work of `choice` is clearly smaller. `work`: for a squared error of 1.
 void allow_bias(MethodChoice& choice, double work, const std::vector<MethodPilot>& known, const Scene& small, const Goal& goal,
                 double affordable, const Goal& of_trial, Prepared& prepared, const Watch& watch) {
     if (!(work > 0.0)) return;

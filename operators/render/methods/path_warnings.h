@@ -1,5 +1,4 @@
-// Warnings about a render by paths: light that paths miss, errors that samples cannot show, goals that were not
-// reached.
+// Warnings about a render by paths: light that paths miss, errors that samples cannot show, goals that were not reached.
 #pragma once
 
 #include "operators/render/from_paths/rendered_series.h"

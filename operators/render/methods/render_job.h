@@ -48,8 +48,7 @@ struct RenderJob {
     Prepared& prepared;
     const Stopwatch& clock;  // runs since the render began, including its pilots
 
-    // Seconds before the first sample that count towards goal.seconds; includes the earlier pilots of a continued
-    // render.
+    // Seconds before the first sample that count towards goal.seconds; includes the earlier pilots of a continued render.
     double seconds_gone() const { return clock.seconds() + (saving.from && choice ? choice->seconds : 0.0); }
 };
 

@@ -29,9 +29,8 @@ void check_memory(const Goal& goal, const Film& film, int bounces, std::size_t q
                         bounces, film.crop_width, film.crop_height, bytes / 0x1p30, memory / 0x1p30));
 }
 
-// For --tail the pilot has chosen N; sample() renders again with a larger N if the rendered rest is still too large. It
-// also renders again with larger replicates, if the time is enough for more of the small ones that a pilot chose than
-// can be repeated.
+// For --tail the pilot has chosen N; sample() renders again with a larger N if the rendered rest is still too large. It also
+// renders again with larger replicates, if the time is enough for more of the small ones that a pilot chose than can be repeated.
 struct Sampled {
     RenderedSeries series;
     SeriesReport report;

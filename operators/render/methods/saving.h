@@ -34,9 +34,8 @@ struct Saving {
         [](const auto&...) {};
     std::function<void()> has_all_fields = [] {};
     double longest_part = std::numeric_limits<double>::infinity();  // seconds; but a part has at least one replicate
-    // Called with a function that makes the series so far, valid until `see` returns: after every part, once errors are
-    // known, and after every refinement of fields, from the thread that renders. The series has neither health nor
-    // ways. Empty: not wanted.
+    // Called with a function that makes the series so far, valid until `see` returns: after every part, once errors are known, and
+    // after every refinement of fields, from the thread that renders. The series has neither health nor ways. Empty: not wanted.
     std::function<void(const std::function<BounceSeries()>& so_far)> see = {};
 };
 

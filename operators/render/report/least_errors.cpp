@@ -140,9 +140,8 @@ private:
         const MeanWithError mean = result_->mean_of_term(q);
         return least_half_width(d, samples, mean.standard_error <= agreement * std::abs(mean.mean));
     }
-    // All states of a bounce's chains bring the same amount, and a chain stays at a state for a while. Such a stay is
-    // an event with about the same weight everywhere in a picture, even if the means of its blocks differ by orders of
-    // magnitude.
+    // All states of a bounce's chains bring the same amount, and a chain stays at a state for a while. Such a stay is an event with
+    // about the same weight everywhere in a picture, even if the means of its blocks differ by orders of magnitude.
     static Rgb weight_in_picture(const Estimate& term) {
         Rgb weight(0.0);
         for (int c = 0; c < 3; ++c) {
@@ -205,9 +204,8 @@ private:
         for (int c = 0; c < 3; ++c)
             if (met_[c] > 0.0) largest_[c] = met_[c];
     }
-    // Finds the albedo seen in those pixels, and their neighbours, in which some bounce is 0. If no paths start at the
-    // camera, it also finds the light seen there, because dim lights are not among the points on lights, which are
-    // chosen by power.
+    // Finds the albedo seen in those pixels, and their neighbours, in which some bounce is 0. If no paths start at the camera, it
+    // also finds the light seen there, because dim lights are not among the points on lights, which are chosen by power.
     void find_albedo(std::uint64_t seed) {
         const std::size_t pixels = result_->pixels();
         const int width = result_->width(), height = result_->height();

@@ -1,6 +1,5 @@
-// Lower bounds on standard errors. A pixel may miss a sliver of light that none of its samples met, and replicates may
-// agree by chance, so the standard error of a pixel is at least h/t, where t belongs to the 95% interval and h is the
-// larger of
+// Lower bounds on standard errors. A pixel may miss a sliver of light that none of its samples met, and replicates may agree by
+// chance, so the standard error of a pixel is at least h/t, where t belongs to the 95% interval and h is the larger of
 //
 //     what one sample more or less leaves open (one_sample_more.h); not in bounces from 2 on by photons and records, whose
 //     samples are means of many, unless replicates agree
@@ -34,8 +33,7 @@ public:
     // If no sample of the whole picture met quantity i: an upper bound, with 95% confidence, on its mean over pixels and channels;
     // infinite if there is no bound. Otherwise, or if nothing is there: 0.
     double mean_at_most(std::size_t i) const { return means_at_most_[i]; }
-    // The least standard error of the mean over pixels and channels, by one sample more or less; 0 if pixels share
-    // samples.
+    // The least standard error of the mean over pixels and channels, by one sample more or less; 0 if pixels share samples.
     double of_mean(std::size_t i) const { return of_means_[i]; }
 
 private:

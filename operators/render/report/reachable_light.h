@@ -9,9 +9,8 @@
 
 namespace neumann {
 
-// For each `wanted` pixel, the largest albedo of the surfaces that some rays through it hit, and the largest measured
-// value of the light along these rays; 0 if no surface reflects or no ray finds light. The same bits on any number of
-// threads.
+// For each `wanted` pixel, the largest albedo of the surfaces that some rays through it hit, and the largest measured value of the
+// light along these rays; 0 if no surface reflects or no ray finds light. The same bits on any number of threads.
 struct SeenByRays {
     Image albedo, emitted;
 };

@@ -4,10 +4,9 @@
 //
 //     K^i Le ≤ ‖Le‖∞ a^i,   a the largest albedo,
 //
-// in pixels where the camera sees a surface that reflects; in bounce 0 it is the light of points on lights that the
-// camera sees. If all sides have one cell and no light comes by links, at most 3/n of a side's n rays could have met
-// light (95%), and a bounce after one that was met has at most a times the largest pixel of that one, which is a bound
-// even for point lights.
+// in pixels where the camera sees a surface that reflects; in bounce 0 it is the light of points on lights that the camera sees. If
+// all sides have one cell and no light comes by links, at most 3/n of a side's n rays could have met light (95%), and a bounce
+// after one that was met has at most a times the largest pixel of that one, which is a bound even for point lights.
 #pragma once
 
 #include "operators/render/report/series_report.h"

@@ -15,8 +15,7 @@ double closure_defect(const ChannelOperator& F);
 // fixed pseudo-random vectors. Only for albedo 1: K = diag(ρ) F is not self-adjoint in this inner product.
 double reciprocity_defect(const ChannelOperator& F, int pairs = 8);
 
-// The same with K*: |⟨K f, g⟩ − ⟨f, K* g⟩| / (‖K f‖ ‖g‖). If this is more than rounding, for any K, apply_adjoint is
-// wrong.
+// The same with K*: |⟨K f, g⟩ − ⟨f, K* g⟩| / (‖K f‖ ‖g‖). If this is more than rounding, for any K, apply_adjoint is wrong.
 double adjoint_defect(const ChannelOperator& K, int pairs = 8);
 
 }  // namespace neumann

@@ -12,8 +12,7 @@ enum class Convergence {
     diverges
 };
 
-// `uncertainty` is that of a radius computed from rays and patches. If it is not a number, it is unknown and counts as
-// 0.
+// `uncertainty` is that of a radius computed from rays and patches. If it is not a number, it is unknown and counts as 0.
 inline Convergence judge(double radius, double uncertainty) {
     constexpr double rounding = 1e-10;
     if (!std::isfinite(radius)) return Convergence::undecided;

@@ -9,8 +9,7 @@ namespace neumann {
 
 class FixedNumbers {
 public:
-    // The next vector for K, with values in [−1, 1). Each of the processes that share K gets its part of the same
-    // vector.
+    // The next vector for K, with values in [−1, 1). Each of the processes that share K gets its part of the same vector.
     void fill(const ChannelOperator& K, Vector& x) {
         const auto own = static_cast<std::size_t>(K.size());
         x.resize(K.size());

@@ -12,8 +12,7 @@
 
 namespace neumann {
 
-// Thrown to end a search that has not found its result. `because` is the reason, or empty if the search used up its
-// applications.
+// Thrown to end a search that has not found its result. `because` is the reason, or empty if the search used up its applications.
 struct EndedSearch {
     std::string because;
 };

@@ -64,8 +64,7 @@ private:
         const Eigen::MatrixXd &V = this->m_fac.matrix_V(), &H = this->m_fac.matrix_H();
         const bool in_basis = V.size() > 0 && x >= V.data() && x < V.data() + V.size();
         if (!in_basis) {
-            // The first vector of all is not in V. Later ones start a new space, because the columns so far have closed
-            // one.
+            // The first vector of all is not in V. Later ones start a new space, because the columns so far have closed one.
             if (last_ < 0) return;
             throw Closed{last_ + 1 == this->m_ncv ? this->m_fac.subspace_dim() : last_ + 1};
         }

@@ -21,8 +21,7 @@ struct EigenStep {
 
 // The limits at which a search gives up.
 struct EigenLimits {
-    // The largest number of applications of K. A search also gives up when its residuals fall so slowly that it would
-    // need more.
+    // The largest number of applications of K. A search also gives up when its residuals fall so slowly that it would need more.
     double most = 10000.0;
     std::function<void(const EigenStep&)> look = [](const EigenStep&) {};  // called before each application
     Watch watch = {};                                                      // a search that it stops has not converged
@@ -56,10 +55,9 @@ struct Eigenpairs {
     double radius() const;
 };
 
-// The `count` eigenvalues of largest modulus of K, or of K* if `adjoint` is set, by Arnoldi's method with implicit
-// restarts (Spectra). If K has at most 64 unknowns, its matrix is formed and decomposed. The start vector is fixed, so
-// the result is reproducible. Like every method that starts from one vector, it may find fewer vectors of a multiple
-// eigenvalue than there are.
+// The `count` eigenvalues of largest modulus of K, or of K* if `adjoint` is set, by Arnoldi's method with implicit restarts
+// (Spectra). If K has at most 64 unknowns, its matrix is formed and decomposed. The start vector is fixed, so the result is
+// reproducible. Like every method that starts from one vector, it may find fewer vectors of a multiple eigenvalue than there are.
 Eigenpairs leading_eigenpairs(const ChannelOperator& K, int count, bool adjoint = false, const EigenLimits& limits = {});
 
 // |λ₁|, or not a number if it was not found.

@@ -134,8 +134,7 @@ public:
             layers_.push_back({first + "stderr.", is_raised ? &raised_ : &picture.standard_error});
         if (is_raised) layers_.push_back({first + "spread.", &picture.standard_error});
         if (!picture.discretisation.pixels.empty()) layers_.push_back({first + "discretisation.", &picture.discretisation});
-        // Most bits of a picture with errors are noise: zip would save little more than run lengths, in ten times the
-        // time.
+        // Most bits of a picture with errors are noise: zip would save little more than run lengths, in ten times the time.
         header.compression() = Imf::RLE_COMPRESSION;
         for (const auto& [name, value] : attributes) set_attribute(header, name, value);
         for (const Layer& layer : layers_) {

@@ -19,8 +19,7 @@ const Element* child(const Element& e, std::string_view tag);
 const Element& required_child(const Element& e, std::string_view tag);
 const Attribute& required_attribute(const Element& e, std::string_view name);
 
-// Adds a problem for every child whose tag is not among `known`: "unknown element <translat> in <node>; did you mean
-// 'translate'?"
+// Adds a problem for every child whose tag is not among `known`: "unknown element <translat> in <node>; did you mean 'translate'?"
 void check_children(const Element& e, std::span<const std::string> known, Problems& problems);
 
 // The part of e that CMU 15-462 or Berkeley CS184 add to the common profile, <extra><technique profile="CMU462"> or
@@ -39,8 +38,7 @@ public:
     // Whether anything in the file is of a course's profile.
     bool is_of_course() const { return is_of_course_; }
 
-    // The element of this tag to which "#id" or "id" refers. Throws InputError if there is none, or if there are
-    // several.
+    // The element of this tag to which "#id" or "id" refers. Throws InputError if there is none, or if there are several.
     const Element& find(const Attribute& url, const std::string& tag) const;
     // The same, or null if there is none.
     const Element* known(const std::string& id, const std::string& tag) const;

@@ -132,8 +132,7 @@ private:
         reader::add(import_.scene.root, std::move(emitter));
     }
 
-    // Adds the square [-½, ½]² of the node's x and y, facing −z. As in the course's program, z only decides the sign of
-    // the normal.
+    // Adds the square [-½, ½]² of the node's x and y, facing −z. As in the course's program, z only decides the sign of the normal.
     void add_area(const Instance& instance, const Element& kind, const Rgb& color) {
         const Mat4& m = instance.to_world;
         Lamp lamp{Vec3(m[3]), 0.5 * Vec3(m[0]), 0.5 * Vec3(m[1]), {}};

@@ -17,9 +17,8 @@ struct Coordinates {
     auto operator<=>(const Coordinates&) const = default;
 };
 
-// Leaves out vertices that no face uses, and repeats a vertex for each of its normals and texture coordinates. Texture
-// coordinates stay as in the file: (0, 0) is the lower left corner of a picture. Throws InputError; returns null if
-// there are no triangles.
+// Leaves out vertices that no face uses, and repeats a vertex for each of its normals and texture coordinates. Texture coordinates
+// stay as in the file: (0, 0) is the lower left corner of a picture. Throws InputError; returns null if there are no triangles.
 std::shared_ptr<const MeshFile> read_mesh(const Element& mesh, const Element& primitive, const Coordinates& coordinates,
                                           Problems& problems);
 

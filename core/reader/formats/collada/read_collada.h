@@ -10,8 +10,7 @@
 
 namespace neumann::reader {
 
-// Adds errors to `problems` and reads on without what is wrong. Throws InputError if the file is no COLLADA scene at
-// all.
+// Adds errors to `problems` and reads on without what is wrong. Throws InputError if the file is no COLLADA scene at all.
 RawScene read_collada(const std::string& path, const NamedValues& definitions, Warnings& warnings, Problems& problems);
 
 }  // namespace neumann::reader

@@ -1,5 +1,4 @@
-// Reads the texts of COLLADA's elements: numbers between blanks. All functions throw InputError at the word that is
-// wrong.
+// Reads the texts of COLLADA's elements: numbers between blanks. All functions throw InputError at the word that is wrong.
 #pragma once
 
 #include "core/base/vec.h"

@@ -1,5 +1,4 @@
-// Reads the numbers of a glTF file: buffers, views of buffers, and accessors, which say how the bytes of a view are to
-// be read.
+// Reads the numbers of a glTF file: buffers, views of buffers, and accessors, which say how the bytes of a view are to be read.
 #pragma once
 
 #include "core/reader/formats/gltf/gltf_file.h"

@@ -7,9 +7,8 @@
 
 namespace neumann::reader::gltf {
 
-// Adds the sensor to the scene, with a film whose size -D width and -D height set. -D camera chooses among several
-// cameras by name, or by number among those of the scene; without it the first is used, with a warning. Throws
-// InputError.
+// Adds the sensor to the scene, with a film whose size -D width and -D height set. -D camera chooses among several cameras by name,
+// or by number among those of the scene; without it the first is used, with a warning. Throws InputError.
 void add_camera(Element& scene, const std::vector<Placed>& placed, const JsonList& cameras, const NamedValues& definitions,
                 Notes& notes);
 

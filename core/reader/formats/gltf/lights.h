@@ -6,8 +6,7 @@
 
 namespace neumann::reader::gltf {
 
-// Candela and lux count lumens. A watt at 555 nm, where the eye sees best, has this many; Blender and others convert by
-// it.
+// Candela and lux count lumens. A watt at 555 nm, where the eye sees best, has this many; Blender and others convert by it.
 constexpr double lumens_per_watt = 683.0;
 
 // Throws InputError.

@@ -46,8 +46,7 @@ struct Material {
     std::vector<const Texture*> textures() const;
 };
 
-// Reports what is wrong with the material, and reads on without it. Warns of what has an effect and is approximated or
-// left out.
+// Reports what is wrong with the material, and reads on without it. Warns of what has an effect and is approximated or left out.
 Material read_material(JsonObject object, const Textures& textures);
 
 }  // namespace neumann::reader::gltf

@@ -78,8 +78,7 @@ std::string Shapes::bsdf_of(Element& scene, const Material& material, const OnMe
     return found->second;
 }
 
-// Throws InputError if the triangles need more than half of the memory; the rest of the program keeps this many bytes
-// for each.
+// Throws InputError if the triangles need more than half of the memory; the rest of the program keeps this many bytes for each.
 void Shapes::expect_memory_for(const MeshFile& file, const Location& place) {
     constexpr double bytes_of_triangle = 300.0, part_of_memory = 0.5;
     triangles_ += static_cast<double>(file.mesh.triangles.size());

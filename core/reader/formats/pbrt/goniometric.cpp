@@ -15,8 +15,7 @@ namespace neumann::reader::pbrt {
 
 namespace {
 
-// Pixels along an edge of the cube's faces: as many as across the picture, which is finer, and enough for a smooth
-// cos³θ.
+// Pixels along an edge of the cube's faces: as many as across the picture, which is finer, and enough for a smooth cos³θ.
 constexpr int min_face = 256, max_face = 1024;
 
 // The rotation that takes +z to an axis.

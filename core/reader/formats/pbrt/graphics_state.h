@@ -14,8 +14,7 @@ struct GraphicsState {
     bool reversed = false;
     MaterialUse material = {};
     std::optional<std::size_t> light = {};
-    // The parameters that directives Attribute give to all shapes, lights and so on that follow; shared until they
-    // change.
+    // The parameters that directives Attribute give to all shapes, lights and so on that follow; shared until they change.
     std::map<std::string, std::shared_ptr<const std::vector<Parameter>>> defaults = {};
 };
 

@@ -16,8 +16,7 @@ namespace {
 
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 
-// The neighbours of each vertex, counter-clockwise; those of a vertex on a boundary go from one edge of the boundary to
-// the other.
+// The neighbours of each vertex, counter-clockwise; those of a vertex on a boundary go from one edge of the boundary to the other.
 struct Rings {
     std::vector<std::vector<std::uint32_t>> of;
     std::vector<bool> is_boundary;

@@ -28,14 +28,12 @@ MadeMesh make_bilinear_mesh(Parameters& p, Importer& importer);
 // Makes a "loopsubdiv" by Loop's subdivision, with the positions and normals of the limit, as pbrt does.
 MadeMesh make_loop_surface(Parameters& p);
 
-// A point where a plane through the z axis cuts a surface: its distance from the axis, its height, and the normal
-// there.
+// A point where a plane through the z axis cuts a surface: its distance from the axis, its height, and the normal there.
 struct Profile {
     Vec2 point, normal;
 };
-// The surface of a profile, along which v runs in [0, 1], turned from the x axis by u · `phi_max`. It has normals, and
-// is cut into `rows` along v and cuts_of(phi_max) along u. At a radius r it is within r (1 − cos(π / 256)) < 8e-5 r of
-// the round surface.
+// The surface of a profile, along which v runs in [0, 1], turned from the x axis by u · `phi_max`. It has normals, and is cut into
+// `rows` along v and cuts_of(phi_max) along u. At a radius r it is within r (1 − cos(π / 256)) < 8e-5 r of the round surface.
 MadeMesh make_surface_of_revolution(const std::function<Profile(double v)>& profile, std::uint32_t rows, double phi_max);
 // The number of cuts, at 256 to the whole turn, and at least 1.
 std::uint32_t cuts_of(double angle);

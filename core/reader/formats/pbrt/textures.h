@@ -15,8 +15,7 @@ class Textures {
 public:
     Textures(PbrtScene& scene, Importer& importer);
 
-    // Reads a reflectance, transmittance or the like, from 0 to 1: an rgb, a spectrum or a texture. Nothing if it is
-    // not given.
+    // Reads a reflectance, transmittance or the like, from 0 to 1: an rgb, a spectrum or a texture. Nothing if it is not given.
     std::optional<TextureValue> find_reflectance(Parameters& p, const std::string& name);
     // Reads a number: a float or a texture.
     std::optional<TextureValue> find_number(Parameters& p, const std::string& name);

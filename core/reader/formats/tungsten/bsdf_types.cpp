@@ -89,8 +89,7 @@ Element BsdfMaker::make_thin_sheet() {
     return e;
 }
 
-// Half of the light is reflected and half let through: a principledthin with diff_trans 2 only transmits, as by
-// Lambert's law.
+// Half of the light is reflected and half let through: a principledthin with diff_trans 2 only transmits, as by Lambert's law.
 Element BsdfMaker::make_diffuse_transmission() {
     const TextureValue color = albedo();
     Element reflecting = bsdf("diffuse"), transmitting = bsdf("principledthin"), e = bsdf("blendbsdf");

@@ -5,8 +5,7 @@
 
 namespace neumann::reader::tungsten {
 
-// Reads `transform`: 16 numbers, row by row, or a position, axes, a scale and a rotation; the identity if it is missing
-// or wrong.
+// Reads `transform`: 16 numbers, row by row, or a position, axes, a scale and a rotation; the identity if it is missing or wrong.
 Mat4 read_transform(JsonObject& parent);
 
 // The columns as unit vectors; one of length 0 stays 0.

@@ -39,9 +39,8 @@ StartPicker on_shape(const Scene& scene, std::uint32_t shape, const Vec3& p, con
     return [start = Start{point_on(scene, shape, p), normal}](Random&) { return start; };
 }
 
-// Two walls of unit height that meet at an angle a, under the sky. A point near the crease sees a share s = sin²(a/2)
-// of sky, and otherwise the other wall: K^i Le = ρ^i s (1 − s)^(i−1). At the distance p from the crease, a share p (1 +
-// π/4)/π is missing.
+// Two walls of unit height that meet at an angle a, under the sky. A point near the crease sees a share s = sin²(a/2) of sky, and
+// otherwise the other wall: K^i Le = ρ^i s (1 − s)^(i−1). At the distance p from the crease, a share p (1 + π/4)/π is missing.
 void groove(Figures& figures, std::uint64_t seed, double half_length, double p, const Mat4& to_world) {
     const double rho = 0.8, a = pi / 3.0, s = 0.25;
     SceneMaker maker;

@@ -30,8 +30,7 @@ void lecture_circle(Figures& figures, std::uint64_t seed) {
         if (!scene.geometry.first_hit({0, 0, 0}, towards, 1e9, p)) return figures.fail("intersection", "the ray missed");
         figures.near(fmt::format("x of the intersection, {}", name), p.position.x, exact.x, 4 * eps * distance);
         figures.near(fmt::format("y of the intersection, {}", name), p.position.y, exact.y, 4 * eps * distance);
-        // Other rays: how far from the surface they end, and whether the light is visible there, as it must be on this
-        // side.
+        // Other rays: how far from the surface they end, and whether the light is visible there, as it must be on this side.
         Sampler random(seed, 0);
         random.start(0);
         double worst = 0.0, worst_light = 0.0;

@@ -46,8 +46,7 @@ Cases extreme_light_cases() {
                  const double exact = 0.7 * 3.0 * rectangle_overhead(1e4, 1e4, 1.0);
                  ProbeSettings settings{.samples = 1024, .bounces = 1, .seed = seed};
                  if (technique == Technique::light) {
-                     // Points are chosen by solid angle; by area, the near part of the light would be found once in 1e8
-                     // samples.
+                     // Points are chosen by solid angle; by area, the near part of the light would be found once in 1e8 samples.
                      settings.direct = DirectLightSettings{.direct = DirectLight::light, .place = LightPlace::solid_angle};
                  }
                  // One ray in 3e7 misses the light, which few samples do not show.
