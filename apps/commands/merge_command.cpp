@@ -51,7 +51,7 @@ std::uint64_t missing_samples(const Goal& goal, const RenderState& merged) {
 
 }  // namespace
 
-RenderRequest asked_for_all(RenderRequest of_some, const RenderState& merged) {
+RenderRequest request_for_all(RenderRequest of_some, const RenderState& merged) {
     const bool one_seed = merged.series.merged.empty();
     of_some.goal.part.reset();
     of_some.goal.samples = one_seed ? std::optional(merged.series.samples) : std::nullopt;
@@ -66,24 +66,24 @@ int merge_command(const MergeRequest& request) {
         if (std::error_code missing; std::filesystem::equivalent(folder, request.output, missing))
             throw InputError(fmt::format("-o {}: is one of those that are merged; expected another folder", request.output));
     std::vector<NamedState> renders;
-    std::vector<RequestOnDisk> asked;
+    std::vector<RequestOnDisk> requests;
     for (const std::string& folder : request.folders) {
         renders.push_back(read(folder));
-        asked.push_back(request_in(folder));
-        if (asked.back().scene_hash != asked.front().scene_hash)
+        requests.push_back(request_in(folder));
+        if (requests.back().scene_hash != requests.front().scene_hash)
             throw InputError(
                 fmt::format("{} and {} cannot be merged: their scenes are not the same", request.folders.front(), folder));
     }
     RenderState merged = merge(std::move(renders));
 
-    RenderRequest all = request_from_json(render_options(), asked.front().request, request.folders.front());
+    RenderRequest all = request_from_json(render_options(), requests.front().request, request.folders.front());
     const std::uint64_t missing = missing_samples(all.goal, merged);
     const ThreadLimit threads(request.threads);
-    all = asked_for_all(std::move(all), merged);
+    all = request_for_all(std::move(all), merged);
     all.scene.path = request.scene.empty() ? file_named_in_json(all.scene.path) : request.scene;
     all.command_line = request.command_line;
     const auto scene = std::make_shared<const Scene>(read_scene(all.scene));
-    if (scene->hash != asked.front().scene_hash)
+    if (scene->hash != requests.front().scene_hash)
         throw InputError(fmt::format("{}: is not the scene that was rendered, or has changed since", all.scene.path));
 
     OutputFolder folder(request.output, "render");

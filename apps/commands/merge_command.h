@@ -8,7 +8,7 @@
 namespace neumann {
 
 // The request for all samples at once, from the request for some of them.
-RenderRequest asked_for_all(RenderRequest of_some, const RenderState& merged);
+RenderRequest request_for_all(RenderRequest of_some, const RenderState& merged);
 
 // Returns the exit code, 0. Throws InputError and RunError.
 int merge_command(const MergeRequest& request);

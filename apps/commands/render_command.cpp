@@ -99,7 +99,7 @@ std::optional<RenderState> read_state(const RenderRequest& request, const Scene&
 
 }  // namespace
 
-Viewers asked_for(std::vector<Viewer*> all) {
+Viewers chosen_viewers(std::vector<Viewer*> all) {
     constexpr int rest = 20;  // at most a twentieth of the time
     constexpr double longest_unseen = 2.0;
     return {std::move(all), SmallShare(rest), longest_unseen};
@@ -197,7 +197,8 @@ int render_command(const RenderRequest& given) {
     Checkpoints checkpoints(*folder, {as_json(render_options(), request), scene->hash}, "neumann render --resume " + request.output,
                             request.checkpoint, !request.resume.empty() || request.goal.part, watch.tell);
     PageSoFar page_so_far(*folder);
-    Viewers viewers = live || tev ? asked_for({}) : viewers_of_files(*scene, *folder, files, request.goal.bounces, page_so_far);
+    Viewers viewers =
+        live || tev ? chosen_viewers({}) : viewers_of_files(*scene, *folder, files, request.goal.bounces, page_so_far);
     if (live) viewers.all.push_back(&*live);
     if (tev) viewers.all.push_back(&*tev);
     const auto rendering = [&] {

@@ -20,7 +20,7 @@ struct Viewers {
     SmallShare share;
     double longest_unseen = std::numeric_limits<double>::infinity();
 };
-Viewers asked_for(std::vector<Viewer*> all);
+Viewers chosen_viewers(std::vector<Viewer*> all);
 
 // Renders a scene in memory, and into memory. `watch` must not have a judge. Throws InputError and RunError.
 std::shared_ptr<Rendering> render(const RenderRequest& request, std::shared_ptr<const Scene> scene, const Watch& watch,

@@ -35,9 +35,9 @@ void print(const ReplayedStep& s, const Scene& scene, bool first_unsound) {
     fmt::print("    from      {}\n    along     {}\n", text(step.from.position), text(step.w));
     if (step.kind == PathStep::Kind::goes_on && !step.from_light)
         fmt::print("    pdf       {}\n", step.pdf == delta_pdf ? "the only direction" : fmt::format("{:.6g} per sr", step.pdf));
-    if (step.kind != PathStep::Kind::asks)
+    if (step.kind != PathStep::Kind::shadow_ray)
         fmt::print("    {} {}\n", step.from_light ? "power     " : "throughput", text(step.beta));
-    if (step.kind == PathStep::Kind::asks)
+    if (step.kind == PathStep::Kind::shadow_ray)
         fmt::print("    {}\n", step.found ? "nothing is in between" : "hidden, or nothing is there");
     else if (step.to.is_infinite())
         fmt::print("    meets     nothing\n");

@@ -58,13 +58,14 @@ void print_notes(const SideBySide& all) {
         const SolverRow& row = all.rows[i];
         if (row.result.verdict == Verdict::converged) continue;
         std::string who;
-        bool said = false;
+        bool is_reported = false;
         for (std::size_t k = 0; k < all.rows.size(); ++k) {
             if (other(row, all.rows[k])) continue;
-            said = said || k < i;
+            is_reported = is_reported || k < i;
             who += (who.empty() ? "" : "; ") + all.rows[k].title;
         }
-        if (!said) fmt::print("{}\n", wrapped(fmt::format("{} ({}): {}.", who, name(row.result.verdict), row.result.why), 4));
+        if (!is_reported)
+            fmt::print("{}\n", wrapped(fmt::format("{} ({}): {}.", who, name(row.result.verdict), row.result.why), 4));
     }
     if (all.interrupted) fmt::print("Interrupted: the other solvers were not run.\n");
 }

@@ -126,9 +126,10 @@ void print(const Unbounced& found, const std::vector<TermAgreement>& forward, co
             fmt::print("{:<8}{:>8}  black\n", names[c], 0);
             continue;
         }
-        const Conditioning& of = channel.conditioning;
-        fmt::print("{:<8}{:>8}{:>12.3g}{:>22.3g}{:>12}{:>16.3g}{:>15.3g}{}\n", names[c], channel.lights.size(), of.condition(),
-                   of.smallest, found.knows_errors ? fmt::format("{:.2g}", of.noise) : "unknown", channel.regularisation,
+        const Conditioning& conditioning = channel.conditioning;
+        fmt::print("{:<8}{:>8}{:>12.3g}{:>22.3g}{:>12}{:>16.3g}{:>15.3g}{}\n", names[c], channel.lights.size(),
+                   conditioning.condition(), conditioning.smallest,
+                   found.knows_errors ? fmt::format("{:.2g}", conditioning.noise) : "unknown", channel.regularisation,
                    channel.series_radius, channel.series_radius < 1.0 ? "" : " diverges");
     }
     fmt::print("\n{:>6}{:>26}{:>16}", "bounce", "backward, C^i L", "discretisation");

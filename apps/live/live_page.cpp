@@ -10,8 +10,8 @@ void LivePage::tell(const RenderProgress& progress) {
     constexpr std::chrono::milliseconds between(200);
     const std::unique_lock lock(telling_, std::try_to_lock);
     const auto now = std::chrono::steady_clock::now();
-    if (!lock || now - told_ < between) return;
-    told_ = now;
+    if (!lock || now - last_report_ < between) return;
+    last_report_ = now;
     nlohmann::ordered_json json = {{"samples", progress.samples}, {"seconds", progress.seconds}, {"fraction", progress.fraction}};
     if (progress.seconds_left) json["seconds_left"] = *progress.seconds_left;
     server_.tell(std::move(json));

@@ -33,7 +33,7 @@ private:
     PageServer server_;
     bool is_opened_ = false;
     std::mutex telling_;
-    std::chrono::steady_clock::time_point told_{};
+    std::chrono::steady_clock::time_point last_report_{};
 };
 
 }  // namespace neumann

@@ -123,10 +123,10 @@ Json photons_json(const PhotonPilot& photons, const PathRecord& record, std::siz
         {settings.gather ? "all" : "others", {{"photons", photons.other_photons}, {"radius_first_last", radii(settings.radius)}}}};
     const PhotonPower& power = photons.power;
     for (std::size_t j = 0; j < power.went_on.size() && j <= bounces + 1; ++j) {
-        Json of = {{"vertex", j}, {j == 0 ? "emitted" : "arrived", j == 0 ? power.went_on[0] : power.arrived[j]}};
-        if (j > 0) of.update({{"absorbed", power.absorbed(j)}, {"went_on", power.went_on[j]}});
-        of["escaped"] = power.escaped(j);
-        json["power"].push_back(of);
+        Json vertex_json = {{"vertex", j}, {j == 0 ? "emitted" : "arrived", j == 0 ? power.went_on[0] : power.arrived[j]}};
+        if (j > 0) vertex_json.update({{"absorbed", power.absorbed(j)}, {"went_on", power.went_on[j]}});
+        vertex_json["escaped"] = power.escaped(j);
+        json["power"].push_back(vertex_json);
     }
     return json;
 }

@@ -140,7 +140,7 @@ py::array_t<bool> sees(const LoadedScene& scene, const py::object& a, const py::
     return array;
 }
 
-LightPoints ask_lights(const std::shared_ptr<LoadedScene>& scene, const py::object& points, const py::object& random) {
+LightPoints samples_of_lights(const std::shared_ptr<LoadedScene>& scene, const py::object& points, const py::object& random) {
     const std::vector<SurfacePoint> x = points_of(*scene, points, "points");
     const std::vector<Vec2> u = rows_of<Vec2>(random, "u");
     expect_rows(u.size(), x.size(), "u", "points");
@@ -260,7 +260,7 @@ void bind_rays(py::module_& m) {
     m.def("intersect", &intersect, py::arg("scene"), py::arg("origin"), py::arg("direction"), py::arg("length"));
     m.def("seen", &seen_by_camera, py::arg("scene"), py::arg("origin"), py::arg("direction"), py::arg("length"));
     m.def("visible", &sees, py::arg("scene"), py::arg("a"), py::arg("b"));
-    m.def("sample_lights", &ask_lights, py::arg("scene"), py::arg("points"), py::arg("u"));
+    m.def("sample_lights", &samples_of_lights, py::arg("scene"), py::arg("points"), py::arg("u"));
 }
 
 }  // namespace neumann

@@ -52,7 +52,7 @@ std::unique_ptr<Job> start(const std::shared_ptr<LoadedScene>& loaded, const Key
             if (live) live->tell(p);
         };
         std::optional<RenderState> state;
-        Viewers viewers = asked_for({});
+        Viewers viewers = chosen_viewers({});
         if (live) viewers.all.push_back(live.get());
         const auto rendering = render(request, loaded->scene, watch, keeping(state), &viewers);
         if (live) live->finish(page_data(*rendering, false), "");
@@ -81,7 +81,7 @@ std::unique_ptr<Job> start_merge(const Kept& a, const Kept& b) {
         BounceSeries series = render(*a->scene, merged.render.method, goal, {}, std::move(saving));
         auto kept = std::make_shared<Mergeable>(Mergeable{*a, std::move(state)});
         kept->series = std::move(series);
-        kept->request = asked_for_all(a->request, merged);
+        kept->request = request_for_all(a->request, merged);
         kept->request.command_line = a->request.command_line + " merged with " + b->request.command_line;
         kept->seconds = clock.seconds();
         return [kept] { return py::cast(kept); };

@@ -27,9 +27,9 @@ std::vector<Estimate> estimates(const py::object& pictures, const py::object& er
     std::size_t i = 0;
     for (const py::handle& error : errors) {
         if (i == result.size()) throw InputError("there are more standard errors than pictures");
-        Estimate& of = result[i++];
-        of.standard_error = as_image(error.cast<Array>());
-        if (of.standard_error.width != of.mean.width || of.standard_error.height != of.mean.height)
+        Estimate& estimate = result[i++];
+        estimate.standard_error = as_image(error.cast<Array>());
+        if (estimate.standard_error.width != estimate.mean.width || estimate.standard_error.height != estimate.mean.height)
             throw InputError("standard errors have another shape than their pictures");
     }
     if (i < result.size()) throw InputError("there are fewer standard errors than pictures");

@@ -51,7 +51,7 @@ struct EnvironmentMap::Quadratic {
 double EnvironmentMap::Tables::along(int y, int x) const {
     return along_row[static_cast<std::size_t>(y) * (static_cast<std::size_t>(image.width) + 1) + static_cast<std::size_t>(x)];
 }
-double EnvironmentMap::Tables::along(const Place& p, int x) const { return mix(along(p.y, x), along(p.y + 1, x), p.down); }
+double EnvironmentMap::Tables::along(const TexelPosition& p, int x) const { return mix(along(p.y, x), along(p.y + 1, x), p.down); }
 EnvironmentMap::Quadratic EnvironmentMap::Tables::between_rows(int y) const {
     const double above = along(y, image.width), below = along(y + 1, image.width);
     const double s0 = sine[static_cast<std::size_t>(y)], s1 = sine[static_cast<std::size_t>(y) + 1];
@@ -91,7 +91,7 @@ EnvironmentMap::EnvironmentMap(Image image, double scale, const Mat4& to_world)
     tables_ = std::make_shared<const Tables>(std::move(tables));
 }
 
-EnvironmentMap::Place EnvironmentMap::place(const Vec3& local) const {
+EnvironmentMap::TexelPosition EnvironmentMap::place(const Vec3& local) const {
     const int width = tables_->image.width, height = tables_->image.height;
     const double longitude = std::atan2(local.x, -local.z) * (0.5 * inv_pi) * width - 0.5;
     const double latitude = std::atan2(std::hypot(local.x, local.z), local.y) * inv_pi * (height - 1);
@@ -100,7 +100,7 @@ EnvironmentMap::Place EnvironmentMap::place(const Vec3& local) const {
     return {(static_cast<int>(column) + width) % width, y, longitude - column, latitude - y};
 }
 
-Rgb EnvironmentMap::unscaled(const Place& p) const {
+Rgb EnvironmentMap::unscaled(const TexelPosition& p) const {
     const Image& image = tables_->image;
     const int next = p.x + 1 == image.width ? 0 : p.x + 1;
     const Rgb above = glm::mix(image.at(p.x, p.y), image.at(next, p.y), p.right),
@@ -116,7 +116,7 @@ Vec3 EnvironmentMap::sample(const Vec2& u) const {
     const Tables& t = *tables_;
     const int width = t.image.width, height = t.image.height;
     const auto below = std::upper_bound(t.up_to_row.begin() + 1, t.up_to_row.end() - 1, u.y);
-    Place p{0, static_cast<int>(below - t.up_to_row.begin()) - 1, 0.0, 0.0};
+    TexelPosition p{0, static_cast<int>(below - t.up_to_row.begin()) - 1, 0.0, 0.0};
     p.down = t.between_rows(p.y).invert((u.y - below[-1]) / (below[0] - below[-1]));
 
     const double target = u.x * t.along(p, width);
@@ -135,7 +135,7 @@ Vec3 EnvironmentMap::sample(const Vec2& u) const {
 
 double EnvironmentMap::pdf(const Vec3& w) const {
     const Vec3 local(glm::dot(x_, w), glm::dot(y_, w), glm::dot(z_, w));
-    const Place p = place(local);
+    const TexelPosition p = place(local);
     const std::vector<double>& sine = tables_->sine;
     const auto y = static_cast<std::size_t>(p.y);
     const double s = mix(sine[y], sine[y + 1], p.down), sin_theta = std::hypot(local.x, local.z);

@@ -34,7 +34,7 @@ public:
 
 private:
     // A position between columns x and x + 1 (the last is followed by the first) and between rows y and y + 1, with fractions.
-    struct Place {
+    struct TexelPosition {
         int x, y;
         double right, down;
     };
@@ -50,11 +50,11 @@ private:
 
         double along(int y, int x) const;
         // The luminance added up to column x, in the row that is `down` of the way from row y to the next.
-        double along(const Place& p, int x) const;
+        double along(const TexelPosition& p, int x) const;
         Quadratic between_rows(int y) const;
     };
-    Place place(const Vec3& local) const;
-    Rgb unscaled(const Place& p) const;
+    TexelPosition place(const Vec3& local) const;
+    Rgb unscaled(const TexelPosition& p) const;
 
     Vec3 x_, y_, z_;  // the axes of the map's space, in the world
     double scale_;

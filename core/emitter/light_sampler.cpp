@@ -67,8 +67,8 @@ LightSampler::LightSampler(const Geometry& geometry, const Emitters& emitters, L
 
 void LightSampler::keep_places() {
     for (const Part& part : table_.parts()) {
-        places_.push_back(geometry_->place(part.shape, part.primitive));
-        second_places_.push_back(geometry_->place(part.shape, part.primitive + (part.is_rectangle() ? 1 : 0)));
+        places_.push_back(geometry_->primitive_ref(part.shape, part.primitive));
+        second_places_.push_back(geometry_->primitive_ref(part.shape, part.primitive + (part.is_rectangle() ? 1 : 0)));
     }
 }
 

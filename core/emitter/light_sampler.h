@@ -69,16 +69,16 @@ public:
     // Whether there is no light to sample.
     bool empty() const { return table_.empty(); }
     // Number of light samples per point; their contributions add up.
-    std::size_t asks() const { return choice_ == LightChoice::all ? table_.lights().size() : 1; }
+    std::size_t samples_per_point() const { return choice_ == LightChoice::all ? table_.lights().size() : 1; }
 
     // Samples light for the receiver x: the first number chooses the light and is then reused, with the second, for the
-    // point on it. The density is that of pdf(). `ask` is the number of the sample, below asks().
-    LightSample sample(const Receiver& x, const Vec2& uv, std::size_t ask = 0) const {
+    // point on it. The density is that of pdf(). `number` is the number of the sample, below casts_shadow_ray().
+    LightSample sample(const Receiver& x, const Vec2& uv, std::size_t number = 0) const {
         if (empty()) return {};
         if (choice_ == LightChoice::contribution) return sample_by_contribution(x, uv);
         if (choice_ == LightChoice::tree) return sample_by_tree(x, uv);
         const LightTable::Choice chosen =
-            choice_ == LightChoice::all ? table_.choose_of(table_.lights()[ask], uv.x) : table_.choose(uv.x);
+            choice_ == LightChoice::all ? table_.choose_of(table_.lights()[number], uv.x) : table_.choose(uv.x);
         return sample_chosen(chosen, x, uv.y);
     }
     // Whether light samples are points that do not depend on x, on surfaces that shine evenly; and such a point.
@@ -88,7 +88,7 @@ public:
     }
     EvenPoint sample_even_point(const Vec2& uv) const {
         const LightTable::Choice chosen = table_.choose(uv.x);
-        const Geometry::Place place = place_of(chosen.index);
+        const Geometry::PrimitiveRef place = place_of(chosen.index);
         return {geometry_->point(place, Vec2(chosen.left, uv.y)), emitters_->even_radiance(place.shape),
                 density_of_shape_[place.shape]};
     }
@@ -120,14 +120,14 @@ private:
         if (as_seen) return on_part_as_seen(part, density, x, uv);
         return at_point(evenly_on(part, uv), density, x.position);
     }
-    Geometry::Place place_of(std::size_t part) const {
+    Geometry::PrimitiveRef place_of(std::size_t part) const {
         const Part& p = table_.parts()[part];
-        return places_.empty() ? geometry_->place(p.shape, p.primitive) : places_[part];
+        return places_.empty() ? geometry_->primitive_ref(p.shape, p.primitive) : places_[part];
     }
     // The place of the second triangle of a rectangle.
-    Geometry::Place second_place_of(std::size_t part) const {
+    Geometry::PrimitiveRef second_place_of(std::size_t part) const {
         const Part& p = table_.parts()[part];
-        return places_.empty() ? geometry_->place(p.shape, p.primitive + 1) : second_places_[part];
+        return places_.empty() ? geometry_->primitive_ref(p.shape, p.primitive + 1) : second_places_[part];
     }
     SurfacePoint evenly_on(std::size_t part, const Vec2& uv) const {
         if (!table_.parts()[part].is_rectangle()) return geometry_->point(place_of(part), uv);
@@ -185,11 +185,11 @@ private:
     LightChoice choice_;
     LightPlace place_;
     LightTable table_;
-    LightTree tree_;                              // over the table's entries that have a place
-    std::vector<std::size_t> everywhere_;         // the table's other entries
-    std::vector<Geometry::Place> places_;         // of the table's parts, unless there are many
-    std::vector<Geometry::Place> second_places_;  // of the second triangles of the table's rectangles
-    std::vector<double> density_of_shape_;        // density of a sample, per area
+    LightTree tree_;                                     // over the table's entries that have a place
+    std::vector<std::size_t> everywhere_;                // the table's other entries
+    std::vector<Geometry::PrimitiveRef> places_;         // of the table's parts, unless there are many
+    std::vector<Geometry::PrimitiveRef> second_places_;  // of the second triangles of the table's rectangles
+    std::vector<double> density_of_shape_;               // density of a sample, per area
 };
 
 }  // namespace neumann

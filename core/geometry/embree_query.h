@@ -62,7 +62,7 @@ inline void filter(const RTCFilterFunctionNArguments* args) {
 #if RTC_VERSION_MAJOR >= 4
 constexpr RTCSceneFlags filters_allowed = RTC_SCENE_FLAG_FILTER_FUNCTION_IN_ARGUMENTS;
 template <class Arguments>
-inline void ask(Query& query, RayCaster::Rays kind, Arguments& arguments) {
+inline void configure(Query& query, RayCaster::Rays kind, Arguments& arguments) {
     arguments.context = &query;
     arguments.flags = kind == RayCaster::Rays::alike ? RTC_RAY_QUERY_FLAG_COHERENT : RTC_RAY_QUERY_FLAG_INCOHERENT;
     if (!query.filters()) return;
@@ -72,13 +72,13 @@ inline void ask(Query& query, RayCaster::Rays kind, Arguments& arguments) {
 inline RTCIntersectArguments to_intersect(Query& query, RayCaster::Rays kind) {
     RTCIntersectArguments arguments;
     rtcInitIntersectArguments(&arguments);
-    ask(query, kind, arguments);
+    configure(query, kind, arguments);
     return arguments;
 }
 inline RTCOccludedArguments to_occlude(Query& query, RayCaster::Rays kind) {
     RTCOccludedArguments arguments;
     rtcInitOccludedArguments(&arguments);
-    ask(query, kind, arguments);
+    configure(query, kind, arguments);
     return arguments;
 }
 inline void trace(RTCScene scene, RTCRayHit& ray, Query query) {

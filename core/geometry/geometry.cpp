@@ -308,8 +308,8 @@ double Geometry::area(std::uint32_t shape) const {
     return sum;
 }
 
-SurfacePoint Geometry::bare_point(const Place& place, const Vec2& uv) const {
-    const auto [shape, primitive, triangle, edges] = place;
+SurfacePoint Geometry::bare_point(const PrimitiveRef& ref, const Vec2& uv) const {
+    const auto [shape, primitive, triangle, edges] = ref;
     if (const TriangleOfFace t = neighbours_->faces().triangle({shape, primitive})) {
         const Vec2 weights = uniform_triangle(uv);
         return {t->at(weights.x, weights.y, triangle ? edges : this->edges(shape, primitive)), t->normal(), t->error(), shape,

@@ -142,30 +142,30 @@ public:
     double area(std::uint32_t shape, std::uint32_t primitive) const;
     double area(std::uint32_t shape) const;
     SurfacePoint point(std::uint32_t shape, std::uint32_t primitive, const Vec2& uv) const {
-        return point(place(shape, primitive), uv);
+        return point(primitive_ref(shape, primitive), uv);
     }
-    // The same in two steps, for a primitive that is sampled often. The place is valid as long as the geometry.
-    struct Place {
+    // The same in two steps, for a primitive that is sampled often. The reference is valid as long as the geometry.
+    struct PrimitiveRef {
         std::uint32_t shape, primitive;
         const Triangle* triangle;  // null on a round shape or an instance
         Triangle::Edges edges;
     };
-    Place place(std::uint32_t shape, std::uint32_t primitive) const {
+    PrimitiveRef primitive_ref(std::uint32_t shape, std::uint32_t primitive) const {
         if (triangles_[shape].empty()) return {shape, primitive, nullptr, {}};
         return {shape, primitive, &triangles_[shape][primitive], edges(shape, primitive)};
     }
-    SurfacePoint point(const Place& place, const Vec2& uv) const {
-        if (!place.triangle) return point_off_meshes(place.shape, place.primitive, uv);
-        const Triangle& t = *place.triangle;
+    SurfacePoint point(const PrimitiveRef& ref, const Vec2& uv) const {
+        if (!ref.triangle) return point_off_meshes(ref.shape, ref.primitive, uv);
+        const Triangle& t = *ref.triangle;
         const Vec2 weights = uniform_triangle(uv);
-        SurfacePoint p{t.at(weights.x, weights.y, place.edges), t.normal(), t.error(), place.shape, place.primitive};
+        SurfacePoint p{t.at(weights.x, weights.y, ref.edges), t.normal(), t.error(), ref.shape, ref.primitive};
         if (!t.is_clear(weights)) look_around(p);
         return p;
     }
 
     // A point for which it is not determined whether it is close. look_around() does that, and moves a point that is
     // close off faces that cross its own.
-    SurfacePoint bare_point(const Place& place, const Vec2& uv) const;
+    SurfacePoint bare_point(const PrimitiveRef& ref, const Vec2& uv) const;
     void look_around(SurfacePoint& p) const { look_around(p, nullptr); }
     // The first hit of a ray along the normal back to such a point, which starts `errors` times the point's error in
     // front of it and ends as far behind: the point, or a bare point of a face that lies in the same place. In a heap
@@ -253,10 +253,10 @@ private:
     bool visible_in_double(const SurfacePoint& x, const SurfacePoint& y) const;
     // Tests whether a giant is hit before p, which Embree found.
     bool meet_giants(const RayStart& start, const Vec3& direction, double distance, bool found, SurfacePoint& p) const;
-    template <class Ask>
-    static std::uint32_t one_by_one(std::size_t n, const Ask& ask) {
+    template <class Test>
+    static std::uint32_t one_by_one(std::size_t n, const Test& test) {
         std::uint32_t found = 0;
-        for (std::size_t i = 0; i < n; ++i) found |= static_cast<std::uint32_t>(ask(i)) << i;
+        for (std::size_t i = 0; i < n; ++i) found |= static_cast<std::uint32_t>(test(i)) << i;
         return found;
     }
     SurfacePoint point_off_meshes(std::uint32_t shape, std::uint32_t primitive, const Vec2& uv) const;

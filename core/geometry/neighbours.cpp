@@ -148,7 +148,7 @@ bool Neighbours::is_in_boxes(const SurfacePoint& p, double aside) const {
     const Surroundings& around = surroundings_.find({p.shape, p.primitive})->second;
     if (around.crowded) return true;
     const Boxes& boxes = around.boxes;
-    const auto held = boxes.qbegin(index::intersects(Corner(p.position.x, p.position.y, p.position.z)));
+    const auto held = boxes.qbegin(index::intersects(BoxPoint(p.position.x, p.position.y, p.position.z)));
     return std::any_of(held, boxes.qend(),
                        [&](const auto& entry) { return faces_.is_near(entry.second.face, p.position, entry.second.near + aside); });
 }

@@ -60,8 +60,8 @@ public:
     const Giants& giants() const { return giants_; }
 
 private:
-    using Corner = boost::geometry::model::point<double, 3, boost::geometry::cs::cartesian>;
-    using Box = boost::geometry::model::box<Corner>;
+    using BoxPoint = boost::geometry::model::point<double, 3, boost::geometry::cs::cartesian>;
+    using Box = boost::geometry::model::box<BoxPoint>;
     struct Other {
         Face face;
         double near;  // points closer to the face than this are close

@@ -28,12 +28,12 @@ struct EdgeOfFaces {
     bool is_drawn = false;
 };
 
-using Place = std::tuple<double, double, double>;
-Place place(const Vec3& p) { return {p.x, p.y, p.z}; }
+using VertexKey = std::tuple<double, double, double>;
+VertexKey vertex_key(const Vec3& p) { return {p.x, p.y, p.z}; }
 
 // Vertices at the same place are one, since meshes have several of them where normals or texture coordinates differ.
 void add_edges(const Shape& shape, std::size_t triangles, const Vec3& direction, std::vector<Segment>& lines) {
-    std::map<std::pair<Place, Place>, EdgeOfFaces> edges;
+    std::map<std::pair<VertexKey, VertexKey>, EdgeOfFaces> edges;
     for (std::uint32_t t = 0; t < triangles; ++t) {
         const std::array<Vec3, 3> at = corners_of(shape, t).at;
         const Vec3 across = glm::cross(at[1] - at[0], at[2] - at[0]);
@@ -42,8 +42,8 @@ void add_edges(const Shape& shape, std::size_t triangles, const Vec3& direction,
         const Vec3 normal = across / size;
         for (std::size_t k = 0; k < 3; ++k) {
             const Vec3 &a = at[k], &b = at[(k + 1) % 3];
-            const bool ordered = place(a) < place(b);
-            EdgeOfFaces& edge = edges[ordered ? std::pair(place(a), place(b)) : std::pair(place(b), place(a))];
+            const bool ordered = vertex_key(a) < vertex_key(b);
+            EdgeOfFaces& edge = edges[ordered ? std::pair(vertex_key(a), vertex_key(b)) : std::pair(vertex_key(b), vertex_key(a))];
             if (edge.faces++ == 0) {
                 edge.segment = {a, b};
                 edge.normal = normal;

@@ -294,7 +294,7 @@ std::uint32_t RayCaster::occluded(const Packet& packet, Rays kind) const {
     return found;
 }
 
-bool RayCaster::any_near(const Vec3& p, double distance, bool (*ask)(const void*, const Face&), const void* wanted) const {
+bool RayCaster::any_near(const Vec3& p, double distance, bool (*test)(const void*, const Face&), const void* wanted) const {
     const Vec3 at = to_embree(p);
     // The radius covers the rounding of the boxes, of p to float, and of p in the coordinates of an instance.
     const double radius = distance * scale_ + 0x1p-22 * (1.0 + distance * scale_) * (1.0 + impl_->distortion);
@@ -303,10 +303,10 @@ bool RayCaster::any_near(const Vec3& p, double distance, bool (*ask)(const void*
     RTCPointQueryContext context;
     rtcInitPointQueryContext(&context);
     struct Search {
-        bool (*ask)(const void*, const Face&);
+        bool (*test)(const void*, const Face&);
         const void* wanted;
         bool found;
-    } search{ask, wanted, false};
+    } search{test, wanted, false};
     rtcPointQuery(
         impl_->scene, &query, &context,
         [](RTCPointQueryFunctionArguments* args) {
@@ -314,7 +314,7 @@ bool RayCaster::any_near(const Vec3& p, double distance, bool (*ask)(const void*
             if (now.found) return false;
             const RTCPointQueryContext& query_context = *args->context;
             const std::uint32_t shape = query_context.instStackSize > 0 ? query_context.instID[0] : args->geomID;
-            now.found = now.ask(now.wanted, {shape, args->primID});
+            now.found = now.test(now.wanted, {shape, args->primID});
             // Once found, a sphere of radius 0 makes Embree visit no more boxes than those that hold the point.
             if (now.found) args->query->radius = 0.0f;
             return now.found;

@@ -52,8 +52,8 @@ public:
     // the first.
     template <class IsWanted>
     bool any_near(const Vec3& p, double distance, const IsWanted& is_wanted) const {
-        const auto ask = [](const void* wanted, const Face& face) { return (*static_cast<const IsWanted*>(wanted))(face); };
-        return any_near(p, distance, ask, &is_wanted);
+        const auto test = [](const void* wanted, const Face& face) { return (*static_cast<const IsWanted*>(wanted))(face); };
+        return any_near(p, distance, test, &is_wanted);
     }
 
     // For benchmarks that call Embree directly.
@@ -64,7 +64,7 @@ public:
 private:
     struct Impl;
     static void set_rays(const Packet& packet, RTCRay8& rays);
-    bool any_near(const Vec3& p, double distance, bool (*ask)(const void*, const Face&), const void* wanted) const;
+    bool any_near(const Vec3& p, double distance, bool (*test)(const void*, const Face&), const void* wanted) const;
     Vec3 center_;
     double scale_;
     std::unique_ptr<Impl> impl_;

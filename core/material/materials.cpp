@@ -5,11 +5,11 @@ namespace neumann {
 namespace {
 
 template <class Bound>
-Rgb largest(const std::vector<Bsdf>& bsdfs, const std::vector<Materials::Sides>& sides_of_shape, const Bound& of) {
+Rgb largest(const std::vector<Bsdf>& bsdfs, const std::vector<Materials::Sides>& sides_of_shape, const Bound& bound) {
     Rgb largest(0.0);
     for (const Materials::Sides& sides : sides_of_shape)
         for (const int index : {sides.front, sides.back})
-            if (index != Materials::absorbing) largest = glm::max(largest, of(bsdfs[static_cast<std::size_t>(index)]));
+            if (index != Materials::absorbing) largest = glm::max(largest, bound(bsdfs[static_cast<std::size_t>(index)]));
     return largest;
 }
 

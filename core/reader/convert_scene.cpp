@@ -130,9 +130,9 @@ ConvertedScene convert_scene(const std::string& path, const std::map<std::string
     using namespace reader;
     ConvertedScene result;
     result.warnings = read_scene_parts(path, definitions, {.lenient = lenient}).warnings;
-    Warnings told;
+    Warnings reported;
     Problems problems(lenient);
-    Document document = read_document(read_raw_scene(path, definitions, told, problems), definitions, told, problems);
+    Document document = read_document(read_raw_scene(path, definitions, reported, problems), definitions, reported, problems);
     problems.check(document.files);
     drop_references(document.root, document.lost.ids);
     FilesBeside(document, result.files).collect(document.root);

@@ -50,8 +50,8 @@ ReadSensor read_only_sensor(const Element& root, const Context& context, const s
     if (!sensor) {
         // The element that could not be read may have been the sensor.
         for (const Element& e : root.children)
-            if (e.broken && !is_object(e.tag)) throw Told();
-        if (has_sensor(root) && problems.any()) throw Told();
+            if (e.broken && !is_object(e.tag)) throw AlreadyReported();
+        if (has_sensor(root) && problems.any()) throw AlreadyReported();
         throw InputError(root.place, "the scene has no <sensor>, expected one");
     }
     ReadSensor read = read_sensor(*sensor, context, shapes);

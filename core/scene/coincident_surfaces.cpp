@@ -53,7 +53,7 @@ void look_at(const Geometry& geometry, const Materials& materials, const Face& f
     const auto& [shape, primitive] = face;
     bool is_covered = false;
     for (std::size_t k = 0; k < looks; ++k) {
-        const SurfacePoint point = geometry.bare_point(geometry.place(shape, primitive), places[k]);
+        const SurfacePoint point = geometry.bare_point(geometry.primitive_ref(shape, primitive), places[k]);
         const SurfacePoint seen = geometry.seen_in_place_of(point, looks_from);
         if (seen.shape == shape) continue;
         is_covered = true;

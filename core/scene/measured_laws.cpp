@@ -49,34 +49,34 @@ double reciprocity_defect(const Bsdf& bsdf, const ShadingPoint& p, std::uint32_t
 }
 
 MeasuredLaws measure_laws(const Geometry& geometry, const Materials& materials) {
-    struct Place {
+    struct MeasuredSide {
         std::uint32_t shape;
         bool front;
         double defect;
     };
     std::set<const Bsdf*> known;
-    std::vector<Place> places;
+    std::vector<MeasuredSide> sides;
     std::vector<const Bsdf*> bsdfs;
     for (std::uint32_t shape = 0; shape < geometry.shapes().size(); ++shape)
         for (const bool front : {true, false}) {
             const Bsdf* bsdf = materials.at(shape, front);
             if (!bsdf || is_lawful(*bsdf) || !has_extent(geometry.shapes()[shape]) || !known.insert(bsdf).second) continue;
-            places.push_back({shape, front, 0.0});
+            sides.push_back({shape, front, 0.0});
             bsdfs.push_back(bsdf);
         }
-    oneapi::tbb::parallel_for(std::size_t{0}, places.size(), [&](std::size_t i) {
-        places[i].defect = mean_defect(geometry, places[i].shape, places[i].front, *bsdfs[i]);
+    oneapi::tbb::parallel_for(std::size_t{0}, sides.size(), [&](std::size_t i) {
+        sides[i].defect = mean_defect(geometry, sides[i].shape, sides[i].front, *bsdfs[i]);
     });
-    MeasuredLaws laws{places.size()};
-    if (!places.empty()) laws.brightest = laws.least_reciprocal = places.front().shape;
-    for (std::size_t i = 0; i < places.size(); ++i) {
+    MeasuredLaws laws{sides.size()};
+    if (!sides.empty()) laws.brightest = laws.least_reciprocal = sides.front().shape;
+    for (std::size_t i = 0; i < sides.size(); ++i) {
         if (const double albedo = max_component(largest_albedo(*bsdfs[i])); albedo > laws.largest_albedo) {
             laws.largest_albedo = albedo;
-            laws.brightest = places[i].shape;
+            laws.brightest = sides[i].shape;
         }
-        if (places[i].defect > laws.reciprocity_defect) {
-            laws.reciprocity_defect = places[i].defect;
-            laws.least_reciprocal = places[i].shape;
+        if (sides[i].defect > laws.reciprocity_defect) {
+            laws.reciprocity_defect = sides[i].defect;
+            laws.least_reciprocal = sides[i].shape;
         }
     }
     return laws;

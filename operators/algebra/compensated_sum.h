@@ -14,7 +14,7 @@ namespace neumann {
 
 // Adds t to `sum`, and the rounding error of that addition to `lost`.
 template <class Real>
-void add_keeping(Real& sum, Real& lost, Real t) {
+void add_compensated(Real& sum, Real& lost, Real t) {
     const Real s = sum + t;
     lost += std::abs(sum) >= std::abs(t) ? (sum - s) + t : (t - s) + sum;
     sum = s;
@@ -27,7 +27,7 @@ public:
     explicit CompensatedSum(Field first) : sum_(std::move(first)), lost_(static_cast<std::size_t>(sum_.size())) {}
 
     void add(const Field& term) {
-        for (std::size_t u = 0; u < lost_.size(); ++u) add_keeping(sum_.data()[u], lost_[u], term.data()[u]);
+        for (std::size_t u = 0; u < lost_.size(); ++u) add_compensated(sum_.data()[u], lost_[u], term.data()[u]);
     }
     Field value() const {
         Field all = sum_;

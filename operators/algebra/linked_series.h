@@ -30,9 +30,9 @@ public:
 
     const Field& term() const { return term_; }
 
-    // Steps to f_{k+1} = R Σ_m T_m f_{k−m} + b_{k+1}. `given` is b_{k+1}, or null for 0.
-    void advance(const Field* given) {
-        term_ = plus(lower_(product_([&](int m) { return past(static_cast<std::size_t>(m)); })), given);
+    // Steps to f_{k+1} = R Σ_m T_m f_{k−m} + b_{k+1}. `source` is b_{k+1}, or null for 0.
+    void advance(const Field* source) {
+        term_ = plus(lower_(product_([&](int m) { return past(static_cast<std::size_t>(m)); })), source);
         keep();
     }
 
@@ -44,15 +44,15 @@ public:
 
     bool has_links() const { return links_ > 0; }
     // R Σ_m T_m Σ_{j≤m} f_{k−j} + b. The sum S of all later terms solves S = K S + this.
-    Field begun(const Field* given) const {
+    Field rest_source(const Field* source) const {
         std::vector<Field> sums{past_.front()};
         for (std::size_t j = 1; j < past_.size(); ++j) sums.push_back(sums.back() + past_[j]);
-        return plus(lower_(product_([&](int m) { return &sums[std::min(static_cast<std::size_t>(m), sums.size() - 1)]; })), given);
+        return plus(lower_(product_([&](int m) { return &sums[std::min(static_cast<std::size_t>(m), sums.size() - 1)]; })), source);
     }
 
 private:
-    static Field plus(Field f, const Field* given) {
-        if (given) f = std::move(f) + *given;
+    static Field plus(Field f, const Field* source) {
+        if (source) f = std::move(f) + *source;
         return f;
     }
     void keep() {

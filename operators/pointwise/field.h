@@ -64,7 +64,7 @@ public:
             Rgb sum(0.0), lost(0.0);
             for (const Field<Side>& term : terms) {
                 const Rgb value = term(p, w, random);
-                for (int c = 0; c < 3; ++c) add_keeping(sum[c], lost[c], value[c]);
+                for (int c = 0; c < 3; ++c) add_compensated(sum[c], lost[c], value[c]);
             }
             return sum + lost;
         });

@@ -125,16 +125,16 @@ SeriesMoments::Result SeriesMoments::result() const {
                               [&](const auto& range) {
                                   std::vector<double> left(stride_of_pixel);
                                   for (std::size_t pixel = range.begin(); pixel < range.end(); ++pixel) {
-                                      const auto of = [&](const Node& node) {
+                                      const auto moments_of = [&](const Node& node) {
                                           return std::span(*node.data).subspan(pixel * stride_of_pixel, stride_of_pixel);
                                       };
                                       const auto sum = std::span(*merged).subspan(pixel * stride_of_pixel, stride_of_pixel);
                                       // Nodes are merged from the right, where the smallest ones are.
-                                      std::ranges::copy(of(nodes_.back()), sum.begin());
+                                      std::ranges::copy(moments_of(nodes_.back()), sum.begin());
                                       double count = static_cast<double>(nodes_.back().count);
                                       for (std::size_t i = nodes_.size() - 1; i-- > 0;) {
                                           const auto n = static_cast<double>(nodes_[i].count);
-                                          std::ranges::copy(of(nodes_[i]), left.begin());
+                                          std::ranges::copy(moments_of(nodes_[i]), left.begin());
                                           PixelMoments::merge(left, n, sum, count);
                                           std::ranges::copy(left, sum.begin());
                                           count += n;

@@ -76,19 +76,19 @@ std::vector<Estimate> reference(const Scene& scene, std::uint32_t samples) {
     return result;
 }
 
-// Of a picture whose values are `of`'s: what noise and patches are said to add to relMSE.
+// Of a picture whose values are `truth`'s: what noise and patches are said to add to relMSE.
 struct Expected {
     double noise = 0.0, discretisation = 0.0;
 };
-Expected expected(const Estimate& picture, const Image& of) {
+Expected expected(const Estimate& picture, const Image& truth) {
     double mean = 0.0;
-    for (const Rgb& p : of.pixels) mean += (p.r + p.g + p.b) / (3.0 * static_cast<double>(of.pixels.size()));
+    for (const Rgb& p : truth.pixels) mean += (p.r + p.g + p.b) / (3.0 * static_cast<double>(truth.pixels.size()));
     Expected e;
-    for (std::size_t pixel = 0; pixel < of.pixels.size(); ++pixel)
+    for (std::size_t pixel = 0; pixel < truth.pixels.size(); ++pixel)
         for (int c = 0; c < 3; ++c) {
-            const double value = of.pixels[pixel][c], se = picture.standard_error.pixels[pixel][c];
+            const double value = truth.pixels[pixel][c], se = picture.standard_error.pixels[pixel][c];
             const double per =
-                1.0 / ((value * value + metrics_epsilon * mean * mean) * 3.0 * static_cast<double>(of.pixels.size()));
+                1.0 / ((value * value + metrics_epsilon * mean * mean) * 3.0 * static_cast<double>(truth.pixels.size()));
             e.noise += se * se * per;
             if (picture.discretisation.pixels.empty()) continue;
             const double d = picture.discretisation.pixels[pixel][c];

@@ -68,10 +68,10 @@ TEST(WhatIf, TheTwoTechniquesShareTheLight) {
         return mean_of_channels(found->terms[i].mean);
     };
     for (std::size_t i = 0; i < 2; ++i) {
-        const double asked = mean(Mistake::no_hits, i), hit = mean(Mistake::no_lamp_samples, i);
-        EXPECT_NEAR(asked + hit, mean(Mistake::none, i), 1e-12) << i;
+        const double sampled = mean(Mistake::no_hits, i), hit = mean(Mistake::no_lamp_samples, i);
+        EXPECT_NEAR(sampled + hit, mean(Mistake::none, i), 1e-12) << i;
         EXPECT_GT(hit, 0.0) << i;
-        EXPECT_GT(asked, 0.5 * mean(Mistake::none, i)) << i;
+        EXPECT_GT(sampled, 0.5 * mean(Mistake::none, i)) << i;
     }
 }
 

@@ -68,7 +68,7 @@ WrongTracer::WrongTracer(const Scene& scene, Bug bug, Sampling sampling) : scene
     for (std::uint32_t shape = 0; shape < geometry.shapes().size(); ++shape) {
         if (!scene_.emitters.is_emitter(shape)) continue;
         for (std::uint32_t i = 0; i < geometry.primitive_count(shape); ++i) {
-            lamp_.push_back({geometry.place(shape, i), lamp_area_});
+            lamp_.push_back({geometry.primitive_ref(shape, i), lamp_area_});
             lamp_area_ += geometry.area(shape, i);
         }
     }
@@ -160,7 +160,7 @@ Rgb WrongTracer::trace(Vec2 position, int bounces, Numbers& numbers) const {
             // cosθ is clamped at zero with the front's normal, also where the wall has two sides.
             if (bug_ == Bug::one_sided_walls && !in_front) return sum;
             const Rgb brdf = diffuse_brdf(diffuse->reflectance(p));
-            if (sampling_.lamps == Sampling::Lamps::asked) add(bounce + 1, beta * direct_light(hit, n, brdf, numbers));
+            if (sampling_.lamps == Sampling::Lamps::sampled) add(bounce + 1, beta * direct_light(hit, n, brdf, numbers));
             if (sampling_.lamps == Sampling::Lamps::hemisphere)
                 add(bounce + 1, beta * light_by_hemisphere(hit, p.frame, brdf, numbers));
             // By the cosine: the points above a disc.

@@ -47,11 +47,11 @@ int first_wrong_bounce(Bug bug);
 // What a right tracer may do otherwise, at the same light.
 struct Sampling {
     enum class Lamps {
-        asked,      // and hit by directions, by multiple importance sampling
+        sampled,    // and hit by directions, by multiple importance sampling
         hit,        // by directions that go on, alone
         hemisphere  // by a direction of their own, uniform over the hemisphere: CS 184's -H
     };
-    Lamps lamps = Lamps::asked;
+    Lamps lamps = Lamps::sampled;
     bool roulette = true;
     bool one_stream = false;  // every pixel has the same random numbers
     bool stratified = false;  // the first numbers of a pixel's samples, each by Latin hypercube (McKay et al. 1979)
@@ -70,7 +70,7 @@ public:
 private:
     class Numbers;
     struct LampFace {
-        Geometry::Place place;
+        Geometry::PrimitiveRef place;
         double area_before;  // of the faces in front of it in the list
     };
 

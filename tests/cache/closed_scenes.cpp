@@ -107,7 +107,7 @@ TEST(CacheClosedScenes, RecordsCoverWhatIsSeen) {
     const auto places = [&](Spacing spacing, double accuracy) {
         return RecordPlaces(scene, {spacing, accuracy, 64}, SamplerKind::sobol, fixed_seed, 1e9);
     };
-    std::vector<RecordPlaces::Near> near;
+    std::vector<RecordPlaces::NearRecord> near;
     for (const Spacing spacing : {Spacing::hessian, Spacing::split_sphere}) {
         const RecordPlaces few = places(spacing, 2.0 * default_accuracy(spacing)),
                            usual = places(spacing, default_accuracy(spacing));

@@ -147,17 +147,17 @@ TEST(HemisphereCells, DirectionsAreCosineDistributed) {
         const int n = 1 << 12;
         std::array<double, 4> sum{}, squares{};
         for (int i = 0; i < n; ++i) {
-            std::array<double, 4> of{};
+            std::array<double, 4> means{};
             for (std::size_t cell = 0; cell < cells.size(); ++cell) {
                 const double first = u(random);
                 const Vec3 w = cells.direction(cell, Vec2(first, u(random)));
                 EXPECT_NEAR(glm::dot(w, w), 1.0, 1e-12);
                 const std::array<double, 4> all{w.x, w.y, w.z, w.z * w.z};
-                for (std::size_t k = 0; k < 4; ++k) of[k] += all[k] / static_cast<double>(cells.size());
+                for (std::size_t k = 0; k < 4; ++k) means[k] += all[k] / static_cast<double>(cells.size());
             }
             for (std::size_t k = 0; k < 4; ++k) {
-                sum[k] += of[k];
-                squares[k] += of[k] * of[k];
+                sum[k] += means[k];
+                squares[k] += means[k] * means[k];
             }
         }
         const std::array<double, 4> expected{0.0, 0.0, 2.0 / 3.0, 0.5};

@@ -114,11 +114,11 @@ TEST(ExplorerPage, PackedPicturesKeepThreeDigits) {
                 EXPECT_LE(std::abs(std::log2(mean / exact)), 1.0);
             }
             const auto expect_error = [&](const auto& scale, int code, double error) {
-                const double told = error_value(scale, code);
+                const double decoded = error_value(scale, code);
                 if (error == 0.0 || std::isinf(error)) {
-                    EXPECT_EQ(told, error);
+                    EXPECT_EQ(decoded, error);
                 } else {
-                    EXPECT_LE(std::abs(std::log2(told / error)), 0.5001 * scale.at("step").template get<double>());
+                    EXPECT_LE(std::abs(std::log2(decoded / error)), 0.5001 * scale.at("step").template get<double>());
                 }
             };
             expect_error(term_scale, bytes[at + 6 * n], term.standard_error.pixels[i][static_cast<int>(c)]);
@@ -168,11 +168,11 @@ TEST(ExplorerPage, MeansAreRoundedByAllOfTheirError) {
     packed.pack();
     const PackedPicture& picture = packed.pictures().at(0);
     const auto bytes = unpacked(picture, 2);
-    const auto told = [&](std::size_t i) {
+    const auto decoded = [&](std::size_t i) {
         return std::ldexp(half_value(bytes[i] << 8 | bytes[i + 6]), picture.head.at("exponent"));
     };
-    EXPECT_EQ(told(0), 1.0);  // a multiple of 2⁻⁷
-    EXPECT_EQ(told(1), mean);
+    EXPECT_EQ(decoded(0), 1.0);  // a multiple of 2⁻⁷
+    EXPECT_EQ(decoded(1), mean);
 }
 
 nlohmann::ordered_json small_run(std::size_t bounces) {

@@ -123,9 +123,9 @@ TEST_F(KeptRows, WhatIsDamagedOrOfAnotherSceneIsRefused) {
     const auto refusal = [&](const std::string& text) {
         write("rows/rows_000_00000.kept", text);
         const auto before = contents("rows");
-        const std::string said = refused(small);
+        const std::string message = refused(small);
         EXPECT_EQ(contents("rows"), before);
-        return said;
+        return message;
     };
     EXPECT_EQ(refusal(whole.substr(0, whole.size() / 2)),
               "rows/rows_000_00000.kept: damaged: it ends too early; without that file its rays are traced again\n");

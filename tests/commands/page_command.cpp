@@ -130,13 +130,13 @@ TEST_F(PageCommand, PathsOfAPixel) {
     for (const nlohmann::json& shown : pixel.at("paths")) {
         const Finished replayed =
             run({"replay", "a", "--pixel", "20,2", "--sample", std::to_string(shown.at("sample").get<int>()), "--json"});
-        const auto told = nlohmann::json::parse(replayed.out);
-        ASSERT_EQ(told.at("steps").size(), shown.at("rays").size());
-        for (std::size_t k = 0; k < told.at("terms").size(); ++k)
+        const auto reported = nlohmann::json::parse(replayed.out);
+        ASSERT_EQ(reported.at("steps").size(), shown.at("rays").size());
+        for (std::size_t k = 0; k < reported.at("terms").size(); ++k)
             for (std::size_t c = 0; c < 3; ++c)
-                EXPECT_NEAR(told["terms"][k][c].get<double>(), shown["terms"][k][c].get<double>(),
-                            1e-5 * std::abs(told["terms"][k][c].get<double>()));
-        EXPECT_EQ(told["steps"][0]["ray"], shown["rays"][0]["ray"]);
+                EXPECT_NEAR(reported["terms"][k][c].get<double>(), shown["terms"][k][c].get<double>(),
+                            1e-5 * std::abs(reported["terms"][k][c].get<double>()));
+        EXPECT_EQ(reported["steps"][0]["ray"], shown["rays"][0]["ray"]);
     }
     // Without them it is the render's page again.
     page({"a", "--quiet"});
@@ -181,13 +181,13 @@ TEST_F(PageCommand, LayersAreTheSinglePictures) {
             const std::string layer = part + (errors ? ".stderr" : ".Combined");
             ASSERT_NE(std::ranges::find(layers, layer), layers.end()) << fmt::format("{}", fmt::join(layers, " "));
             const Texels read = read_layer(file, layer);
-            const Image& of = errors ? pixel_errors : expected.mean;
-            ASSERT_EQ(read.width, of.width);
-            for (int y = 0; y < of.height; ++y)
-                for (int x = 0; x < of.width; ++x)
+            const Image& expected_layer = errors ? pixel_errors : expected.mean;
+            ASSERT_EQ(read.width, expected_layer.width);
+            for (int y = 0; y < expected_layer.height; ++y)
+                for (int x = 0; x < expected_layer.width; ++x)
                     for (int c = 0; c < 3; ++c)
-                        EXPECT_EQ(read.values[static_cast<std::size_t>(3 * (y * of.width + x) + c)],
-                                  static_cast<float>(of.at(x, y)[c]));
+                        EXPECT_EQ(read.values[static_cast<std::size_t>(3 * (y * expected_layer.width + x) + c)],
+                                  static_cast<float>(expected_layer.at(x, y)[c]));
         }
     };
     for (int i = 0; i <= 3; ++i) expect_same(fmt::format("bounce_{:03}", i), numbered("bounce", i));

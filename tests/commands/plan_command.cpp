@@ -67,16 +67,16 @@ TEST_F(PlanCommand, FullLeavesNothingOutAndShowsTheSame) {
 
 // Of the plan, run.json has what the method took.
 TEST_F(PlanCommand, OfMethods) {
-    const auto has_questions = [&](const std::vector<std::string>& options, const std::string& folder) {
+    const auto has_light_samples = [&](const std::vector<std::string>& options, const std::string& folder) {
         rendered(furnace_, options, folder);
         const nlohmann::json of_run = json(folder);
         for (const auto& p : of_run.at("plan"))
             if (p.at("part").get<std::string>().starts_with("asking lights")) return true;
         return false;
     };
-    EXPECT_TRUE(has_questions({}, "walk"));
-    EXPECT_TRUE(has_questions({"--direct", "mis-balance"}, "balance"));
-    EXPECT_FALSE(has_questions({"--direct", "light"}, "light"));
+    EXPECT_TRUE(has_light_samples({}, "walk"));
+    EXPECT_TRUE(has_light_samples({"--direct", "mis-balance"}, "balance"));
+    EXPECT_FALSE(has_light_samples({"--direct", "light"}, "light"));
     EXPECT_FALSE(part(json("walk").at("plan"), "roulette").at("kept").get<bool>());
     rendered(furnace_, {"--roulette", "albedo"}, "roulette");
     EXPECT_TRUE(part(json("roulette").at("plan"), "roulette").at("kept").get<bool>());

@@ -123,10 +123,10 @@ TEST_F(RenderInterrupt, WhileAMethodIsMadeReady) {
         RunningCommand command = start(arguments);
         wait_for_folder();
         std::this_thread::sleep_for(milliseconds(1500));
-        const auto asked = std::chrono::steady_clock::now();
+        const auto requested = std::chrono::steady_clock::now();
         command.signal(SIGINT);
         const Finished done = command.wait();
-        EXPECT_LT(std::chrono::steady_clock::now() - asked, milliseconds(2000)) << method;
+        EXPECT_LT(std::chrono::steady_clock::now() - requested, milliseconds(2000)) << method;
         EXPECT_EQ(done.exit_code, 1) << method << done.out;
         // On a slow machine it was told before that it takes long.
         EXPECT_TRUE(done.err.ends_with(
@@ -156,10 +156,10 @@ TEST_F(RenderInterrupt, WhileTheSceneIsRead) {
         SCOPED_TRACE(commands[i].front());
         RunningCommand command = start(commands[i]);
         for (int k = 0; k < 60'000 && command.resident_bytes() < of_program; ++k) std::this_thread::sleep_for(milliseconds(1));
-        const auto asked = std::chrono::steady_clock::now();
+        const auto requested = std::chrono::steady_clock::now();
         command.signal(numbers[i % std::size(numbers)]);
         const Finished done = command.wait();
-        EXPECT_LT(std::chrono::steady_clock::now() - asked, milliseconds(2000));
+        EXPECT_LT(std::chrono::steady_clock::now() - requested, milliseconds(2000));
         EXPECT_EQ(done.exit_code, 1);
         EXPECT_EQ(done.err, "neumann: interrupted\n");
         EXPECT_EQ(done.out, "");

@@ -55,19 +55,19 @@ TEST_F(RenderResume, FromAnyNumberToAnyOther) {
 // Reading from a pipe would wait for ever.
 TEST_F(RenderResume, PipesInPlaceOfRecordsAreRefused) {
     for (const std::string name : {"run.json", "render.samples", "render.unfinished", "study.journal"}) {
-        const std::string folder = "of_" + name, said = folder + "/" + name + ": is a pipe or a device, expected a file\n";
+        const std::string folder = "of_" + name, message = folder + "/" + name + ": is a pipe or a device, expected a file\n";
         std::filesystem::create_directory(path(folder));
         ASSERT_EQ(::mkfifo(path(folder + "/" + name).c_str(), 0600), 0);
         if (name == "study.journal") {
             EXPECT_EQ(
                 refused({"study", "scene.xml", "--methods", "walk,bidirectional", "--budgets", "1,2", "--resume", "-o", folder}),
-                said);
+                message);
         } else {
-            EXPECT_EQ(refused({"render", "--resume", folder}), said);
+            EXPECT_EQ(refused({"render", "--resume", folder}), message);
         }
         if (name == "run.json") {
-            EXPECT_EQ(refused({"page", folder}), said);
-            EXPECT_EQ(refused({"replay", folder, "1"}), said);
+            EXPECT_EQ(refused({"page", folder}), message);
+            EXPECT_EQ(refused({"replay", folder, "1"}), message);
         }
     }
 }
@@ -151,9 +151,9 @@ TEST_F(RenderResume, ADamagedStateIsRefused) {
     const auto error = [&](const std::string& text) {
         write("a/render.samples", text);
         const auto before = contents("a");
-        const std::string said = refused({"render", "--resume", "a", "--spp", "256"});
+        const std::string message = refused({"render", "--resume", "a", "--spp", "256"});
         EXPECT_EQ(contents("a"), before);
-        return said;
+        return message;
     };
     EXPECT_EQ(error(whole.substr(0, whole.size() / 2)), "a/render.samples: damaged: it ends too early\n");
     EXPECT_EQ(error(""), "a/render.samples: damaged: it ends too early\n");

@@ -274,9 +274,9 @@ TEST_F(StudyCommand, MissedBudgets) {
 
 TEST_F(StudyCommand, Refused) {
     const auto refusal = [&](const Strings& options) {
-        const std::string said = refused(joined({"study", "scene.xml", "-n", "1", "-o", "new"}, options));
+        const std::string message = refused(joined({"study", "scene.xml", "-n", "1", "-o", "new"}, options));
         EXPECT_FALSE(std::filesystem::exists(path("new")));
-        return said;
+        return message;
     };
     EXPECT_EQ(
         refusal({"--methods", "walk,wlak"}),

@@ -20,9 +20,9 @@ constexpr std::uint32_t groups = 256, together = 64;
 // Directions as the material draws them, at a wrong weight.
 struct WrongWeight {
     static constexpr bool joins_points = false;
-    using Place = Nowhere;
+    using VertexData = NoVertexData;
     double factor;
-    const WrongWeight& at(const SurfaceSide&, Place) const { return *this; }
+    const WrongWeight& at(const SurfaceSide&, VertexData) const { return *this; }
 
     template <class Sampler>
     BsdfSample sample(const SurfaceSide& side, const Vec3& wo, Sampler& sampler) const {

@@ -59,7 +59,7 @@ TEST(Remedies, ALampBehindGlassIsFoundFromItsOwnEnd) {
 
 TEST(Remedies, ALampThatIsSeenIsAskedFor) {
     const Scene scene = under_glass(matte(0.8), false);
-    EXPECT_EQ(remedies_of_largest(scene, settings(plain_walks(), DirectLight::bsdf), 1), Remedies{Remedy::ask_lights});
+    EXPECT_EQ(remedies_of_largest(scene, settings(plain_walks(), DirectLight::bsdf), 1), Remedies{Remedy::sample_lights});
 }
 
 // The floor is a mirror: every vertex is a delta, and nothing can be joined.
@@ -78,14 +78,14 @@ TEST(Remedies, NotWhatTheSceneRefuses) {
 // In both halves nothing is left to try but bounces that are made from both ends.
 TEST(Remedies, OfOtherMethods) {
     const Scene scene = under_glass(matte(0.8), true);
-    const auto of = [&](const std::shared_ptr<const PathMethod>& method, std::size_t quantity) {
+    const auto remedies_of = [&](const std::shared_ptr<const PathMethod>& method, std::size_t quantity) {
         return remedies(scene, PictureSampler(scene, settings(method)), {0, 0}, quantity);
     };
-    EXPECT_EQ(of(physics::paths_of(method::Pointwise{}), 2), Remedies{Remedy::bidirectional});
-    EXPECT_EQ(of(physics::paths_of(method::Surface{}), 2), Remedies{Remedy::ask_lights});
-    EXPECT_EQ(of(std::make_shared<const LightPaths>(), 2), Remedies{Remedy::bidirectional});
-    EXPECT_EQ(of(std::make_shared<const BidirectionalPaths>(), 2), Remedies());
-    EXPECT_EQ(of(std::make_shared<const BidirectionalPaths>(), bounces + 1), Remedies{Remedy::more_bounces});
+    EXPECT_EQ(remedies_of(physics::paths_of(method::Pointwise{}), 2), Remedies{Remedy::bidirectional});
+    EXPECT_EQ(remedies_of(physics::paths_of(method::Surface{}), 2), Remedies{Remedy::sample_lights});
+    EXPECT_EQ(remedies_of(std::make_shared<const LightPaths>(), 2), Remedies{Remedy::bidirectional});
+    EXPECT_EQ(remedies_of(std::make_shared<const BidirectionalPaths>(), 2), Remedies());
+    EXPECT_EQ(remedies_of(std::make_shared<const BidirectionalPaths>(), bounces + 1), Remedies{Remedy::more_bounces});
 }
 
 }  // namespace neumann::remedies_test

@@ -136,7 +136,7 @@ TEST(Replay, APhotonIsFollowedToItsLight) {
                 EXPECT_EQ(s->step.from.position, std::prev(s)->step.to.position);
             }
             for (auto seen = found.steps.begin(); seen != light; ++seen)
-                if (seen->step.kind != PathStep::Kind::asks && seen->step.found && s->step.found)
+                if (seen->step.kind != PathStep::Kind::shadow_ray && seen->step.found && s->step.found)
                     nearest = std::min(nearest, glm::length(seen->step.to.position - s->step.to.position));
         }
         EXPECT_LE(nearest, radius);
@@ -165,7 +165,7 @@ TEST(Replay, ARecordIsFollowedAlongItsBrightestRay) {
         EXPECT_GT(glm::dot(record->frame.n, ray->step.w), 0.0);
         double nearest = std::numeric_limits<double>::infinity();
         for (auto seen = found.steps.begin(); seen != ray; ++seen)
-            if (seen->step.kind != PathStep::Kind::asks && seen->step.found)
+            if (seen->step.kind != PathStep::Kind::shadow_ray && seen->step.found)
                 nearest = std::min(nearest, glm::length(seen->step.to.position - record->x.position));
         EXPECT_LE(nearest, record->radius);
         for (auto s = ray; s != found.steps.end(); ++s) EXPECT_TRUE(s->found.empty());
@@ -182,7 +182,7 @@ TEST(Replay, APathIsJoined) {
     SurfacePoint at;
     int reflections = 0;
     for (const auto& [step, brought] : found.steps) {
-        if (step.kind == PathStep::Kind::asks) {
+        if (step.kind == PathStep::Kind::shadow_ray) {
             EXPECT_EQ(step.bounce, reflections + 1);
             continue;
         }

@@ -97,7 +97,7 @@ TEST(KnownFigures, FailWhereTheyHaveTo) {
     EXPECT_TRUE(failed());
     figures.at_least("", 1.0, 1.1);
     EXPECT_TRUE(failed());
-    figures.said("", "converged", "diverging");
+    figures.equal("", "converged", "diverging");
     EXPECT_TRUE(failed());
     const auto thrown = known::run({"a/b", "", [](known::Figures&, std::uint64_t) { throw std::runtime_error("why"); }});
     ASSERT_EQ(thrown.size(), 1u);

@@ -286,7 +286,7 @@ TEST(LinksOfAnyMaterial, WhatIsMissingWithoutThemIsTold) {
     Goal goal;
     goal.bounces = 2;
     goal.samples = 4;
-    const auto is_told = [&](const Method& method) {
+    const auto is_reported = [&](const Method& method) {
         const auto warnings = render(scene, method, goal).warnings.counts();
         return std::ranges::any_of(warnings, [](const auto& w) {
             return w.first.find("a mirror throws on from a light without extent") != std::string::npos;
@@ -295,9 +295,9 @@ TEST(LinksOfAnyMaterial, WhatIsMissingWithoutThemIsTold) {
     method::Patches in_cells;
     method::Matrix by_links;
     in_cells.patches = by_links.patches = 60;
-    EXPECT_TRUE(is_told(in_cells));
-    EXPECT_FALSE(is_told(by_links));
-    EXPECT_TRUE(is_told(method::Walk{}));
+    EXPECT_TRUE(is_reported(in_cells));
+    EXPECT_FALSE(is_reported(by_links));
+    EXPECT_TRUE(is_reported(method::Walk{}));
 }
 
 // Anisotropic metal has no cells of directions, and needs none.

@@ -105,7 +105,7 @@ TEST(ChainStatistics, HaveTheAutocorrelationTimeOfChainsThatAreKnown) {
             ChainDiary diary;
             bool here = uniform(random) < 0.5;
             for (int k = 0; k < length; ++k) {
-                diary.stand({here ? 0.25 : 0.75, 0.5});
+                diary.add_state({here ? 0.25 : 0.75, 0.5});
                 if (uniform(random) >= p) here = !here;
             }
             diary.add_to(all);
@@ -119,7 +119,7 @@ TEST(ChainStatistics, SayThatChainsWhichDoNotMoveAreWorthAStateEach) {
     ChainStatistics all;
     for (int chain = 0; chain < 100; ++chain) {
         ChainDiary diary;
-        for (int k = 0; k < 50; ++k) diary.stand({chain / 100.0, 0.5});
+        for (int k = 0; k < 50; ++k) diary.add_state({chain / 100.0, 0.5});
         ChainStatistics one;
         diary.add_to(one);
         all.merge(one);

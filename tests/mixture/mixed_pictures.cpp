@@ -111,7 +111,7 @@ TEST(MixedPictures, ReplayTheirSamples) {
             // Otherwise a path from a light brought it, there or to another pixel.
             double nearest = std::numeric_limits<double>::infinity();
             for (const ReplayedStep& step : replayed.steps)
-                for (const ReplayedStep::Found& found : step.found)
+                for (const ReplayedStep::Contribution& found : step.found)
                     if (found.pixel && found.quantity == q)
                         nearest = std::min(nearest, std::abs(max_component(found.value) / s.value - 1.0));
             ++from_lights;

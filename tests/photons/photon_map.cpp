@@ -40,7 +40,7 @@ TEST(PhotonMap, FindsWhatLiesNearby) {
     const std::vector<Photon> all = scattered(5000);
     PhotonMap built(all);
     const PhotonMap map = std::move(built);  // it may be moved
-    std::vector<PhotonMap::Near> near;
+    std::vector<PhotonMap::NearPhoton> near;
     std::size_t found = 0;
     for (const double radius : {0.01, 0.1, 0.5, 3.0}) {
         for (std::size_t k = 0; k < 200; ++k) {
@@ -53,7 +53,7 @@ TEST(PhotonMap, FindsWhatLiesNearby) {
                     std::abs(glm::dot(d, x.normal)) <= 0.2 * radius)
                     expected.push_back(p.path);
             }
-            for (const PhotonMap::Near& n : near) {
+            for (const PhotonMap::NearPhoton& n : near) {
                 paths.push_back(n.photon->path);
                 const Vec3 d = Vec3(n.photon->position) - x.position;
                 EXPECT_NEAR(n.distance2, glm::dot(d, d), 1e-6);
@@ -81,7 +81,7 @@ TEST(PhotonMap, KnowsTheDistanceOfTheKth) {
 
 TEST(PhotonMap, MayBeEmpty) {
     const PhotonMap map({});
-    std::vector<PhotonMap::Near> near(3);
+    std::vector<PhotonMap::NearPhoton> near(3);
     SurfacePoint x;
     x.position = x.normal = Vec3(1.0, 0.0, 0.0);
     map.find(x, 1.0, near);

@@ -9,11 +9,11 @@
 
 namespace neumann::close_places {
 
-struct Place {
+struct Placement {
     const char* name;
     Mat4 to_world;
 };
-inline const Place places[] = {
+inline const Placement places[] = {
     {"at the origin", Mat4(1.0)},
     {"turned", glm::rotate(Mat4(1.0), 1.1, glm::normalize(Vec3(1, 2, 3)))},
     {"turned and 1 km away", glm::rotate(glm::translate(Mat4(1.0), Vec3(700, -600, 400)), 1.1, glm::normalize(Vec3(1, 2, 3)))},

@@ -171,7 +171,7 @@ TriangleMesh quad(const Vec3& corner, const Vec3& a, const Vec3& b) {
 
 // Two walls of unit height that meet at an angle, open above.
 TEST(CloseSurfaces, AreMetInLongGrooves) {
-    for (const Place& place : places)
+    for (const Placement& place : places)
         for (const double length : {1.0, 20.0, 2000.0, 2e4})
             for (const double angle : {pi / 3.0, 0.1, 3.0}) {
                 const Vec3 along(2.0 * length, 0, 0), corner(-length, 0, 0);
@@ -196,7 +196,7 @@ TEST(CloseSurfaces, AreMetInLongGrooves) {
 }
 
 TEST(CloseSurfaces, AreMetInThinGapsAboveWideGround) {
-    for (const Place& place : places)
+    for (const Placement& place : places)
         for (const double half_width : {10.0, 1e3, 1e5, 1e6})
             for (const double gap : {1e-3, 1e-6}) {
                 const Geometry geometry =
@@ -222,7 +222,7 @@ TEST(CloseSurfaces, AreMetInThinGapsAboveWideGround) {
 // Boxes whose faces are cut into triangles in two ways.
 TEST(CloseSurfaces, AreMetWhereBoxesTouchAndOverlap) {
     for (const auto cut : {&close_places::box, &known::box})
-        for (const Place& place : places)
+        for (const Placement& place : places)
             for (const double gap : {0.0, 1e-9, 1e-6}) {
                 const Geometry geometry =
                     placed({quad({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}), cut({-0.5, -0.5, gap}, {0, 0, 0.5 + gap}),
@@ -236,7 +236,7 @@ TEST(CloseSurfaces, AreMetWhereBoxesTouchAndOverlap) {
 
 // The faces of instances as well, although nothing is kept of where they are close.
 TEST(CloseSurfaces, AreMetOnInstances) {
-    for (const Place& place : places)
+    for (const Placement& place : places)
         for (const double gap : {0.0, 1e-9, 1e-6, 1e-3}) {
             const Geometry geometry =
                 placed_as_instances({quad({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}), known::box({-0.5, -0.5, gap}, {0, 0, 0.5 + gap}),
@@ -255,7 +255,7 @@ TEST(CloseSurfaces, AreMetOnInstances) {
 // in it. Without pleats its faces would continue each other. Not 1 km away, where a needle of a millimetre has corners with too few
 // digits.
 TEST(CloseSurfaces, AreMetInCrowds) {
-    for (const Place& place : std::span(places).first(2))
+    for (const Placement& place : std::span(places).first(2))
         for (const double gap : {0.0, 1e-6, -0.5}) {
             TriangleMesh column = known::prism(400);
             for (std::size_t i = 0; i < column.vertices.size(); ++i) {

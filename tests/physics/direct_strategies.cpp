@@ -18,7 +18,7 @@ constexpr LightChoice choices[] = {LightChoice::mixed,        LightChoice::unifo
 constexpr LightPlace places[] = {LightPlace::area, LightPlace::solid_angle, LightPlace::projected, LightPlace::near_projected};
 
 // By points on lights, and both.
-std::vector<Settings> ways_to_ask_lights() {
+std::vector<Settings> ways_to_sample_lights() {
     std::vector<Settings> all;
     for (const LightChoice lights : choices)
         for (const LightPlace place : places) {
@@ -29,7 +29,7 @@ std::vector<Settings> ways_to_ask_lights() {
     all.push_back({.heuristic = Heuristic::balance});
     return all;
 }
-bool asks_lights(const Settings& s) { return s.direct == DirectLight::light || s.direct == DirectLight::mis; }
+bool samples_lights(const Settings& s) { return s.direct == DirectLight::light || s.direct == DirectLight::mis; }
 std::string describe(const Settings& s) {
     return fmt::format("direct {}, lights {}, place {}, heuristic {}", static_cast<int>(s.direct), static_cast<int>(s.lights),
                        static_cast<int>(s.place), static_cast<int>(s.heuristic));
@@ -56,13 +56,13 @@ TEST(DirectStrategiesSlow, ARectangleByLambertsFormula) {
     maker.add(parallelogram({0, 0, 1}, {0, 1, 0}, {1, 0, 0}), lamp(3.0));
     const Scene scene = maker.make();
     const StartPicker start = at(scene, {0, 0, 0}, {0, 0, 1});
-    std::vector<Settings> settings = ways_to_ask_lights();
+    std::vector<Settings> settings = ways_to_sample_lights();
     for (const DirectLight direct : {DirectLight::hemisphere, DirectLight::cosine, DirectLight::bsdf, DirectLight::surfaces})
         settings.push_back({.direct = direct});
     for (const Settings& s : settings) {
         SCOPED_TRACE(describe(s));
         const Estimates found = probe(scene, start, Technique::mis, {.samples = 512, .bounces = 2, .direct = s});
-        expect_matches(found, std::vector{0.0, 0.7 * 3.0 * 0.1385316059948930, 0.0}, 0, asks_lights(s) ? power : 0.01);
+        expect_matches(found, std::vector{0.0, 0.7 * 3.0 * 0.1385316059948930, 0.0}, 0, samples_lights(s) ? power : 0.01);
     }
 }
 
@@ -91,17 +91,17 @@ TEST(DirectStrategiesSlow, ManyLights) {
     const Scene scene = many_lights().make();
     const StartPicker start = anywhere_on(scene, static_cast<std::uint32_t>(floor));
     const Estimates plain = probe(scene, start, Technique::bsdf, {.samples = 32768, .bounces = 3, .seed = fixed_seed + 1});
-    std::vector<Settings> settings = ways_to_ask_lights();
+    std::vector<Settings> settings = ways_to_sample_lights();
     for (const DirectLight direct : {DirectLight::hemisphere, DirectLight::cosine, DirectLight::surfaces})
         settings.push_back({.direct = direct});
     for (const Settings& s : settings) {
         SCOPED_TRACE(describe(s));
         const Estimates found =
-            probe(scene, start, Technique::mis, {.samples = asks_lights(s) ? 4096u : 16384u, .bounces = 3, .direct = s});
+            probe(scene, start, Technique::mis, {.samples = samples_lights(s) ? 4096u : 16384u, .bounces = 3, .direct = s});
         for (std::size_t i = 1; i <= 3; ++i) {
             const Statistic &a = found.terms[i], &b = plain.terms[i];
             EXPECT_NEAR(a.mean.r, b.mean.r, 4.5 * std::hypot(a.standard_error.r, b.standard_error.r)) << "bounce " << i;
-            EXPECT_LT(a.standard_error.r, (asks_lights(s) ? 0.01 : 0.05) * a.mean.r) << "no power in bounce " << i;
+            EXPECT_LT(a.standard_error.r, (samples_lights(s) ? 0.01 : 0.05) * a.mean.r) << "no power in bounce " << i;
         }
     }
 }
@@ -120,7 +120,7 @@ TEST(DirectStrategies, DensitiesAreThoseOfSamples) {
                 sampler.start(i);
                 const Vec3 x(4.0 * sampler.next() - 2.0, 4.0 * sampler.next() - 2.0, 0.5 * sampler.next());
                 const Receiver from = i % 2 == 0 ? Receiver(x) : Receiver(x, uniform_sphere(sampler.next2()));
-                const LightSample light = lights.sample(from, sampler.next2(), i % lights.asks());
+                const LightSample light = lights.sample(from, sampler.next2(), i % lights.samples_per_point());
                 if (!(light.pdf > 0.0) || light.pdf == delta_pdf) continue;
                 EXPECT_NEAR(lights.pdf(from, light.w, light.point) / light.pdf, 1.0, 1e-9) << static_cast<int>(choice) << i;
             }

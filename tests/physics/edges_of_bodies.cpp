@@ -17,7 +17,7 @@ TEST(EdgesOfBodies, AreMetInOrder) {
     const TriangleMesh inner = box({0.3, 0.2, -0.8}, {0.7, 0.8, 0.1});
     TriangleMesh outer = box({-1, -1, -1}, {1, 1, 1});
     for (auto& t : outer.triangles) std::swap(t[1], t[2]);
-    for (const Place& place : places) {
+    for (const Placement& place : places) {
         const Geometry geometry = placed({outer, inner}, place.to_world);
         const auto& vertices = std::get<TriangleMesh>(geometry.shapes()[1]).vertices;
         const Vec3 center = place.to_world * glm::dvec4(-0.5, -0.5, -0.5, 1.0);
@@ -59,7 +59,7 @@ struct Corners {
 TEST(EdgesOfBodies, AreMetFromOutsideByRaysAimedAtThem) {
     constexpr double beside[] = {0.0, 0.0, 1e-6, -1e-6, 1e-9, -1e-9};
     const auto grazes = [](const Vec3& w) { return std::min({std::abs(w.x), std::abs(w.y), std::abs(w.z)}) < 1e-3; };
-    for (const Place& place : places) {
+    for (const Placement& place : places) {
         Sampler random(20261125, 0);
         const auto one_of = [&](int n) { return static_cast<int>(random.next() * n); };
         const auto direction = [&] { return uniform_sphere(random.next2()); };
@@ -131,7 +131,7 @@ TEST(EdgesOfBodies, AreMetFromOutsideByRaysAimedAtThem) {
 
 // The same for the rims of closed cylinders that stand a billionth above the floor.
 TEST(EdgesOfBodies, AreMetFromOutsideAtRimsToo) {
-    for (const Place& place : places) {
+    for (const Placement& place : places) {
         Sampler random(20261126, 0);
         random.start(0);
         const auto moved = [&](const Vec3& p) { return Vec3(place.to_world * glm::dvec4(p, 1.0)); };

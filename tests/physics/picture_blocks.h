@@ -30,19 +30,19 @@ public:
         Tally tally(Q);
         for (std::uint64_t r = 0; r < replicates; ++r) {
             const auto node = sampler.run(r, 1, tally).value();
-            std::vector<double> of((blocks_ + 1) * Q * 3, 0.0);
+            std::vector<double> means((blocks_ + 1) * Q * 3, 0.0);
             for (std::size_t pixel = 0; pixel < width_ * static_cast<std::size_t>(sampler.height()); ++pixel) {
                 const std::size_t b = block_of(pixel);
                 for (std::size_t q = 0; q < Q; ++q)
                     for (std::size_t c = 0; c < 3; ++c) {
                         const double value = node.data[(pixel * Q + q) * PixelMoments::doubles_per_quantity + c];
-                        of[(b * Q + q) * 3 + c] += value / static_cast<double>(size * size);
-                        of[(blocks_ * Q + q) * 3 + c] += value / static_cast<double>(size * size * blocks_);
+                        means[(b * Q + q) * 3 + c] += value / static_cast<double>(size * size);
+                        means[(blocks_ * Q + q) * 3 + c] += value / static_cast<double>(size * size * blocks_);
                         if (q >= terms_)
                             differences_[q - terms_].pixels[pixel][static_cast<int>(c)] += value / static_cast<double>(replicates);
                     }
             }
-            all_.push_back(std::move(of));
+            all_.push_back(std::move(means));
             if (pixels) pixels->add(node);
         }
     }

@@ -47,10 +47,10 @@ TEST(Splitting, RaysAreCounted) {
                 probe(scene, at(scene, {0, 0, 1}, {0, 0, -1}), way, {.samples = 64, .bounces = 3, .split = split});
             for (int i = 0; i <= 3; ++i)
                 EXPECT_NEAR(found.terms[static_cast<std::size_t>(i)].mean.r, std::pow(rho, i), 1e-12) << "bounce " << i;
-            const double asked = way == Technique::light ? 1.0 : 0.0;
+            const double samples_lights = way == Technique::light ? 1.0 : 0.0;
             EXPECT_EQ(found.rays[0], 1.0);
-            EXPECT_EQ(found.rays[1], split.walks + asked * split.lights);
-            EXPECT_EQ(found.rays[2], split.walks * (1.0 + asked));
+            EXPECT_EQ(found.rays[1], split.walks + samples_lights * split.lights);
+            EXPECT_EQ(found.rays[2], split.walks * (1.0 + samples_lights));
             EXPECT_EQ(found.rays[3], split.walks * 1.0) << "the last bounce wants one of the two";
         }
 }

@@ -71,14 +71,14 @@ void expect_the_same_pictures(const std::function<Scene()>& make) {
             const Pictures all = rendered(whole, {}, sampler, rest);
             const Pictures planned = rendered(scene, left_out, sampler, rest);
             EXPECT_LE(rays(planned), rays(all));
-            if (!left_out.questions) {
+            if (!left_out.light_samples) {
                 expect_same_bits(planned, all);
                 continue;
             }
             expect_agreement(planned, all);
             // All but this one.
             LeftOut others = left_out;
-            others.questions = false;
+            others.light_samples = false;
             expect_same_bits(rendered(scene, others, sampler, rest), all);
         }
 }

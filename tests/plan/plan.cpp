@@ -28,7 +28,7 @@ Scene stock(const std::string& name) { return read_scene(SCENES "/" + name + "/"
 TEST(Plan, OfScenesThatComeAlong) {
     using L = LeftOut;
     EXPECT_EQ(decisions(stock("cornell-box")), Decisions());
-    EXPECT_EQ(decisions(stock("furnace")), Decisions({&L::questions, &L::shadow_rays_in_room}));
+    EXPECT_EQ(decisions(stock("furnace")), Decisions({&L::light_samples, &L::shadow_rays_in_room}));
     for (const char* name : {"metal-room", "glass-ball", "facing-mirrors", "glossy-floor", "outdoor"})
         EXPECT_EQ(decisions(stock(name)), Decisions()) << name;
 }
@@ -36,35 +36,39 @@ TEST(Plan, OfScenesThatComeAlong) {
 TEST(Plan, OfScenesThatNeedLittle) {
     using L = LeftOut;
     EXPECT_EQ(decisions(lit_room({0.7, 0.5, 0.3})), Decisions({&L::shadow_rays_in_room}));
-    EXPECT_EQ(decisions(box_under(ConstantEnvironment(Rgb(0.8)))), Decisions({&L::questions, &L::rays_from_surfaces}));
+    EXPECT_EQ(decisions(box_under(ConstantEnvironment(Rgb(0.8)))), Decisions({&L::light_samples, &L::rays_from_surfaces}));
     EXPECT_EQ(decisions(point_lit_room(Rgb(0.6))), Decisions({&L::rays_for_light}));
 }
 
 // What looks like a furnace and is none.
 TEST(Plan, NoFurnaces) {
-    const auto asks = [](const auto& change) {
+    const auto takes_light_samples = [](const auto& change) {
         SceneMaker maker;
         auto faces = room({-1.0, -1.0, -1.0}, {1.0, 1.0, 1.0});
         std::array<Surface, 6> surfaces;
         surfaces.fill(glowing(0.5, 1.0));
         change(maker, faces, surfaces);
         for (std::size_t i = 0; i < 6; ++i) maker.add(faces[i], surfaces[i]);
-        return !make_plan(maker.make()).walk.questions;
+        return !make_plan(maker.make()).walk.light_samples;
     };
     const auto nothing = [](auto&, auto&, auto&) {};
-    EXPECT_FALSE(asks(nothing));
-    EXPECT_FALSE(asks([](auto&, auto&, auto& surfaces) { surfaces.fill({Rgb(0.7, 0.5, 0.3), AreaLight(Rgb(1.0, 2.0, 0.5))}); }));
-    EXPECT_TRUE(asks([](auto&, auto&, auto& surfaces) { surfaces[2].emission = AreaLight(Rgb(1.0, 1.0, 0.5)); }));
-    EXPECT_TRUE(asks([](auto&, auto&, auto& surfaces) {
+    EXPECT_FALSE(takes_light_samples(nothing));
+    EXPECT_FALSE(takes_light_samples([](auto&, auto&, auto& surfaces) {
+        surfaces.fill({Rgb(0.7, 0.5, 0.3), AreaLight(Rgb(1.0, 2.0, 0.5))});
+    }));
+    EXPECT_TRUE(takes_light_samples([](auto&, auto&, auto& surfaces) { surfaces[2].emission = AreaLight(Rgb(1.0, 1.0, 0.5)); }));
+    EXPECT_TRUE(takes_light_samples([](auto&, auto&, auto& surfaces) {
         surfaces[2].emission = AreaLight([](const ShadingPoint&, const Vec3& w) { return Rgb(std::abs(w.x)); }, Rgb(1.0));
     }));
-    EXPECT_TRUE(asks([](auto&, auto&, auto& surfaces) { surfaces[2] = matte(0.5); }));
-    EXPECT_TRUE(asks([](auto&, auto&, auto& surfaces) { surfaces[2] = glowing(0.5, 1.5); }));
-    EXPECT_TRUE(asks([](auto&, auto& faces, auto&) { faces[4] = flipped(faces[4]); }));
-    EXPECT_TRUE(asks([](auto&, auto& faces, auto&) { faces[4].triangles.pop_back(); }));
-    EXPECT_TRUE(asks([](auto& maker, auto&, auto&) { maker.parts.lights.delta = {PointLight(Vec3(0.0), Rgb(1.0))}; }));
-    EXPECT_TRUE(asks([](auto& maker, auto&, auto&) { maker.add(box(Vec3(-0.1), Vec3(0.1)), matte(0.5)); }));
-    EXPECT_TRUE(asks([](auto& maker, auto&, auto&) { maker.parts.lights.environment = ConstantEnvironment(Rgb(2.0)); }));
+    EXPECT_TRUE(takes_light_samples([](auto&, auto&, auto& surfaces) { surfaces[2] = matte(0.5); }));
+    EXPECT_TRUE(takes_light_samples([](auto&, auto&, auto& surfaces) { surfaces[2] = glowing(0.5, 1.5); }));
+    EXPECT_TRUE(takes_light_samples([](auto&, auto& faces, auto&) { faces[4] = flipped(faces[4]); }));
+    EXPECT_TRUE(takes_light_samples([](auto&, auto& faces, auto&) { faces[4].triangles.pop_back(); }));
+    EXPECT_TRUE(
+        takes_light_samples([](auto& maker, auto&, auto&) { maker.parts.lights.delta = {PointLight(Vec3(0.0), Rgb(1.0))}; }));
+    EXPECT_TRUE(takes_light_samples([](auto& maker, auto&, auto&) { maker.add(box(Vec3(-0.1), Vec3(0.1)), matte(0.5)); }));
+    EXPECT_TRUE(
+        takes_light_samples([](auto& maker, auto&, auto&) { maker.parts.lights.environment = ConstantEnvironment(Rgb(2.0)); }));
 }
 
 // What lies under a sky and still sees itself, or may.

@@ -29,8 +29,8 @@ TEST_F(InputFiles, PipesAndDevices) {
     }
     for (const std::string ending : {"gltf", "pbrt", "dae", "json"}) {
         ASSERT_EQ(::mkfifo(path("pipe." + ending).c_str(), 0600), 0);
-        const std::string said = error_of(path("pipe." + ending));
-        EXPECT_TRUE(said.starts_with("pipe." + ending + ": is a pipe or a device, expected a")) << said;
+        const std::string message = error_of(path("pipe." + ending));
+        EXPECT_TRUE(message.starts_with("pipe." + ending + ": is a pipe or a device, expected a")) << message;
     }
 }
 
@@ -50,9 +50,9 @@ TEST_F(InputFiles, OthersAreNotCopied) {
     } catch (const InputError& e) {
         all.push_back(e.what());
     }
-    for (const std::string& said : all) {
-        EXPECT_EQ(said.find("the-secret"), std::string::npos) << said;
-        EXPECT_EQ(said.find("another-secret"), std::string::npos) << said;
+    for (const std::string& message : all) {
+        EXPECT_EQ(message.find("the-secret"), std::string::npos) << message;
+        EXPECT_EQ(message.find("another-secret"), std::string::npos) << message;
     }
     EXPECT_EQ(error_of(path("secret.pbrt")), "secret:1:1: expected a directive of pbrt, found 'root:x:0:0:t...'");
 }

@@ -123,18 +123,18 @@ TEST_F(PbrtScenes, Films) {
     expect_same_sensor(size + "PixelFilter \"mitchell\" \"float B\" 0.5", filter("mitchell", "<float name='B' value='0.5'/>"));
     expect_same_sensor(size + "PixelFilter \"sinc\" \"float xradius\" 3 \"float yradius\" 3",
                        filter("lanczos", "<integer name='lobes' value='3'/>"));
-    const auto told = [&](const std::string& options) { return warning(read_pbrt_file(options + " WorldBegin")); };
-    EXPECT_EQ(told("PixelFilter \"box\" \"float xradius\" 1 \"float yradius\" 1"),
+    const auto warnings_of = [&](const std::string& options) { return warning(read_pbrt_file(options + " WorldBegin")); };
+    EXPECT_EQ(warnings_of("PixelFilter \"box\" \"float xradius\" 1 \"float yradius\" 1"),
               "pixel filter 'box' of radius 1: its radius is 0.5 here");
-    EXPECT_EQ(told("PixelFilter \"triangle\" \"float xradius\" 1"),
+    EXPECT_EQ(warnings_of("PixelFilter \"triangle\" \"float xradius\" 1"),
               "pixel filter with xradius and yradius that differ: their mean is taken");
-    EXPECT_EQ(told("PixelFilter \"sinc\""), "pixel filter 'sinc' of radius 4: its radius is 3 here");
-    EXPECT_EQ(told("Film \"rgb\" \"string sensor\" \"canon_eos_5d_mkiv\""),
+    EXPECT_EQ(warnings_of("PixelFilter \"sinc\""), "pixel filter 'sinc' of radius 4: its radius is 3 here");
+    EXPECT_EQ(warnings_of("Film \"rgb\" \"string sensor\" \"canon_eos_5d_mkiv\""),
               "film with the sensor of a camera: colours are those of the sensor 'cie1931'");
-    EXPECT_EQ(told("Film \"rgb\" \"float whitebalance\" 5000"), "whitebalance of the film is left out");
-    EXPECT_EQ(told("Film \"rgb\" \"float maxcomponentvalue\" 10"),
+    EXPECT_EQ(warnings_of("Film \"rgb\" \"float whitebalance\" 5000"), "whitebalance of the film is left out");
+    EXPECT_EQ(warnings_of("Film \"rgb\" \"float maxcomponentvalue\" 10"),
               "maxcomponentvalue of the film is left out: no sample is cut off");
-    EXPECT_EQ(told("Integrator \"path\" \"bool regularize\" true"),
+    EXPECT_EQ(warnings_of("Integrator \"path\" \"bool regularize\" true"),
               "regularize of the integrator is left out: no material becomes rougher along a path");
     EXPECT_EQ(read_pbrt_file("Integrator \"path\" \"integer maxdepth\" 3 Sampler \"independent\" WorldBegin").bounces, 3);
     EXPECT_EQ(read_pbrt_file("Integrator \"path\" Sampler \"independent\" WorldBegin").sampler, SamplerKind::independent);

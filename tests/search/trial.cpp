@@ -190,14 +190,14 @@ private:
 void hear(const std::vector<std::string>& lines, Verdict& verdict, std::string& begun, std::string& as) {
     for (const std::string& line : lines) {
         if (!line.starts_with('{')) continue;
-        const auto said = nlohmann::json::parse(line);
-        if (said.contains("begin")) begun = said["begin"], as = said.value("command", "");
-        if (said.contains("rendered")) verdict.rendered[said["rendered"]] = said["seconds"];
-        if (said.contains("refused")) verdict.refused[said["refused"]] = said["why"];
-        if (said.contains("again")) verdict.looked_again = true;
-        if (said.contains("kind"))
+        const auto message = nlohmann::json::parse(line);
+        if (message.contains("begin")) begun = message["begin"], as = message.value("command", "");
+        if (message.contains("rendered")) verdict.rendered[message["rendered"]] = message["seconds"];
+        if (message.contains("refused")) verdict.refused[message["refused"]] = message["why"];
+        if (message.contains("again")) verdict.looked_again = true;
+        if (message.contains("kind"))
             verdict.findings.push_back(
-                {static_cast<Finding::Kind>(said["kind"].get<int>()), said["method"], said["other"], said["what"]});
+                {static_cast<Finding::Kind>(message["kind"].get<int>()), message["method"], message["other"], message["what"]});
     }
 }
 

@@ -35,15 +35,15 @@ Matrix two_rooms(double fast, double slow, double coupling) {
     return rho.asDiagonal() * F;
 }
 
-struct Asked {
+struct Case {
     const char* name;
     Matrix K;
     Vector Le;
     std::optional<Vector> reflectance = {};
 };
 
-std::vector<Asked> asked() {
-    std::vector<Asked> all;
+std::vector<Case> cases() {
+    std::vector<Case> all;
     for (const double slow : {0.97, 0.999}) {
         Vector rho(120), Le = Vector::Zero(120);
         rho << Vector::Constant(60, 0.3), Vector::Constant(60, slow);
@@ -68,7 +68,7 @@ Vector exact_sum(const Matrix& K, const Vector& Le) {
 
 TEST(Estimates, AreNoneBelowAThirdOfTheError) {
     constexpr double tolerance = 1e-6;
-    for (const Asked& problem_of : asked()) {
+    for (const Case& problem_of : cases()) {
         const SparseChannel K(problem_of.K.sparseView(), Vector::Ones(problem_of.K.rows()));
         const Vector L = exact_sum(problem_of.K, problem_of.Le);
         const auto error_of = [&](const Vector& x) { return (x - L).lpNorm<Eigen::Infinity>() / L.lpNorm<Eigen::Infinity>(); };
@@ -85,15 +85,15 @@ TEST(Estimates, AreNoneBelowAThirdOfTheError) {
                 const bool is_quick = who.starts_with("anderson") || who == "gmres" || who == "bicgstab" || who == "chebyshev";
                 if (radius_given && !is_quick) continue;
                 const SolverResult result = solver.solve(problem);
-                const std::string said =
+                const std::string description =
                     std::string(problem_of.name) + ", " + who + ": " + name(result.verdict) + ": " + result.why;
                 if (who == "neumann" || who == "gauss-seidel" || who == "southwell" || who == "gmres" || who == "lu") {
-                    EXPECT_EQ(result.verdict, Verdict::converged) << said << ": an estimate of those that refuse is no test";
+                    EXPECT_EQ(result.verdict, Verdict::converged) << description << ": an estimate of those that refuse is no test";
                 }
                 if (result.verdict != Verdict::converged && result.verdict != Verdict::rounding) continue;
-                EXPECT_GE(result.history.back().estimate, error_of(result.x) / 3.0) << said;
+                EXPECT_GE(result.history.back().estimate, error_of(result.x) / 3.0) << description;
                 if (result.verdict == Verdict::converged) {
-                    EXPECT_LE(error_of(result.x), 3.0 * tolerance) << said;
+                    EXPECT_LE(error_of(result.x), 3.0 * tolerance) << description;
                 }
             }
         }
@@ -115,7 +115,7 @@ TEST(Estimates, BoundsOfTheInverse) {
     expect_bound(furnace(0.9999).matrix(), 1.0 + 1e-9, 1.0);
     expect_bound(sphere_halves(1.6, 0.2).matrix(), 2.0, 2.0);  // ‖K‖∞ = 1.6 bounds nothing
     expect_bound(dome().matrix(), 2.0, 8.0);
-    for (const Asked& problem_of : asked()) expect_bound(problem_of.K, 2.0, 8.0);
+    for (const Case& problem_of : cases()) expect_bound(problem_of.K, 2.0, 8.0);
     EXPECT_TRUE(std::isinf(bound_inverse(furnace(1.0)).norm));
     EXPECT_TRUE(std::isinf(bound_inverse(furnace(1.05)).norm));
     EXPECT_EQ(bound_inverse(furnace(0.0)).norm, 1.0);

@@ -17,7 +17,7 @@ constexpr int n = 5, links = 2, bounces = 9;
 struct Linked {
     std::vector<MatrixXd> K;  // K[m] adds m + 1 bounces
     MatrixXd all = MatrixXd::Zero(n, n);
-    std::vector<VectorXd> given;  // Le in bounce 0, and what later bounces are given besides
+    std::vector<VectorXd> sources;  // Le in bounce 0, and what later bounces are given besides
 
     explicit Linked(unsigned seed) {
         std::mt19937 random(seed);
@@ -27,7 +27,7 @@ struct Linked {
             K.emplace_back(MatrixXd::NullaryExpr(n, n, draw));
             all += K.back();
         }
-        for (int i = 0; i <= bounces; ++i) given.emplace_back(VectorXd::NullaryExpr(n, draw));
+        for (int i = 0; i <= bounces; ++i) sources.emplace_back(VectorXd::NullaryExpr(n, draw));
     }
 
     template <class FieldAfter>
@@ -44,11 +44,11 @@ VectorXd same(const VectorXd& f) { return f; }
 TEST(LinkedSeries, HasTheTermsOfTheRecursion) {
     for (const unsigned seed : {1u, 2u, 3u}) {
         const Linked product(seed);
-        LinkedSeries series(product, same, same, links, product.given[0]);
-        std::vector<VectorXd> terms{product.given[0]};
+        LinkedSeries series(product, same, same, links, product.sources[0]);
+        std::vector<VectorXd> terms{product.sources[0]};
         for (std::size_t k = 1; k <= bounces; ++k) {
-            series.advance(&product.given[k]);
-            VectorXd expected = product.given[k];
+            series.advance(&product.sources[k]);
+            VectorXd expected = product.sources[k];
             for (std::size_t m = 0; m <= links && m < k; ++m) expected += product.K[m] * terms[k - 1 - m];
             terms.push_back(expected);
             EXPECT_LT((series.term() - expected).norm(), 1e-15) << k;
@@ -60,18 +60,18 @@ TEST(LinkedSeries, HasTheTermsOfTheRecursion) {
 TEST(LinkedSeries, BeginsTheSumOfAllLaterTerms) {
     const Linked product(4);
     const MatrixXd I = MatrixXd::Identity(n, n);
-    VectorXd all_given = VectorXd::Zero(n);
-    for (const VectorXd& g : product.given) all_given += g;
-    const VectorXd whole = (I - product.all).partialPivLu().solve(all_given);
-    LinkedSeries series(product, same, same, links, product.given[0]);
+    VectorXd all_sources = VectorXd::Zero(n);
+    for (const VectorXd& g : product.sources) all_sources += g;
+    const VectorXd whole = (I - product.all).partialPivLu().solve(all_sources);
+    LinkedSeries series(product, same, same, links, product.sources[0]);
     VectorXd sum = series.term();
     for (std::size_t k = 1; k < bounces; ++k) {
-        series.advance(&product.given[k]);
+        series.advance(&product.sources[k]);
         sum += series.term();
     }
-    const VectorXd begun = series.begun(&product.given[bounces]);
-    EXPECT_LT((series.apply(begun) - product.all * begun).norm(), 1e-15);
-    EXPECT_LT((sum + (I - product.all).partialPivLu().solve(begun) - whole).norm(), 1e-14);
+    const VectorXd source = series.rest_source(&product.sources[bounces]);
+    EXPECT_LT((series.apply(source) - product.all * source).norm(), 1e-15);
+    EXPECT_LT((sum + (I - product.all).partialPivLu().solve(source) - whole).norm(), 1e-14);
 }
 
 // Terms on two unknowns of a product on five: K with means before it and values after it.
@@ -81,7 +81,7 @@ TEST(LinkedSeries, IsLiftedToFinerFieldsAndLowered) {
     up.col(0).head(2).setOnes();
     up.col(1).tail(3).setOnes();
     const MatrixXd down = (up.transpose() * up).inverse() * up.transpose();
-    const VectorXd Le = down * product.given[0];
+    const VectorXd Le = down * product.sources[0];
     const auto lift = [&](const VectorXd& f) -> VectorXd { return up * f; };
     const auto lower = [&](const VectorXd& f) -> VectorXd { return down * f; };
     LinkedSeries series(product, lift, lower, links, Le);

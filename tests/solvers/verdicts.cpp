@@ -77,20 +77,21 @@ void expect_verdicts(const Known& known, const std::vector<Verdict>& usual) {
         for (const NamedSolver& solver : solvers()) {
             const std::string who = solver.name;
             const SolverResult result = solver.solve(problem);
-            const std::string said = fmt::format("{}, radius {}: {}: {}: {}", known.name, radius_given ? "given" : "not given", who,
-                                                 name(result.verdict), result.why);
-            EXPECT_FALSE(result.why.empty()) << said;
+            const std::string description =
+                fmt::format("{}, radius {}: {}: {}: {}", known.name, radius_given ? "given" : "not given", who,
+                            name(result.verdict), result.why);
+            EXPECT_FALSE(result.why.empty()) << description;
             std::vector<Verdict> right = usual;
             if (known.others.contains(who)) right = known.others.at(who);
             if ((who == "chebyshev" && !radius_given) || (who == "cg" && !known.albedo)) right = {Verdict::refused};
-            EXPECT_NE(std::find(right.begin(), right.end(), result.verdict), right.end()) << said;
+            EXPECT_NE(std::find(right.begin(), right.end(), result.verdict), right.end()) << description;
             if (result.verdict == Verdict::converged || result.verdict == Verdict::rounding) {
-                ASSERT_TRUE(known.L) << said;
+                ASSERT_TRUE(known.L) << description;
                 const double error = (result.x - *known.L).lpNorm<Eigen::Infinity>() / known.L->lpNorm<Eigen::Infinity>();
-                EXPECT_LE(error, known.not_normal * std::max(10.0 * known.tolerance, 1e-13 / (1.0 - known.radius))) << said;
+                EXPECT_LE(error, known.not_normal * std::max(10.0 * known.tolerance, 1e-13 / (1.0 - known.radius))) << description;
             }
             if (result.verdict == Verdict::diverging) {
-                EXPECT_FALSE(known.L) << said;
+                EXPECT_FALSE(known.L) << description;
             }
         }
     }

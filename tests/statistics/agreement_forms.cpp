@@ -43,20 +43,20 @@ static_assert(HasSeries<Product<R, T>> && HasSeries<Product<T, R>> && !HasSeries
 static_assert(!std::constructible_from<NeumannSeries<Product<R, T>>, Product<R, T>, IncidentField>);
 
 // Places on the film, from 0 to 1 in both directions, that see the middle of something.
-struct Place {
+struct FilmPosition {
     const char* name;
     double x, y;
 };
-constexpr Place places[] = {{"floor", 0.25, 0.92},
-                            {"back wall", 0.35, 0.30},
-                            {"left wall", 0.08, 0.45},
-                            {"right wall", 0.92, 0.50},
-                            {"top of the short block", 0.633, 0.656},
-                            {"back wall above the short block", 0.62, 0.50}};
+constexpr FilmPosition places[] = {{"floor", 0.25, 0.92},
+                                   {"back wall", 0.35, 0.30},
+                                   {"left wall", 0.08, 0.45},
+                                   {"right wall", 0.92, 0.50},
+                                   {"top of the short block", 0.633, 0.656},
+                                   {"back wall above the short block", 0.62, 0.50}};
 
 // The film is so large that 8×8 of its pixels are one place.
 constexpr int film_size = 1 << 24, crop = 8;
-Scene cornell_box(const Place& place) {
+Scene cornell_box(const FilmPosition& place) {
     SceneParts parts = read_scene_parts(SCENES "/cornell-box/cornell-box.xml");
     parts.film.width = parts.film.height = film_size;
     parts.film.crop_x = static_cast<int>(place.x * film_size) - crop / 2;
@@ -163,10 +163,10 @@ std::vector<Way> all_ways(const Scene& scene, int bounces, std::uint64_t seed, i
 }
 
 // |z| ≤ 4.5 for all pairs, places, bounces and channels. `power`: the largest error of any way, relative to the walk's value.
-void expect_agreement(std::span<const Place> at, int bounces, std::uint64_t seed, int samples, double power) {
+void expect_agreement(std::span<const FilmPosition> at, int bounces, std::uint64_t seed, int samples, double power) {
     double largest = 0.0, worst_error = 0.0;
     int comparisons = 0;
-    for (const Place& place : at) {
+    for (const FilmPosition& place : at) {
         const Scene scene = cornell_box(place);
         const auto ways = all_ways(scene, bounces, seed, samples);
         for (std::size_t k = 0; k <= static_cast<std::size_t>(bounces); ++k)

@@ -52,12 +52,12 @@ TEST(Allocation, OfSeveralErrorsMakesLeastWhatIsAskedFor) {
         BlockCosts costs{5, {}, {}};
         for (int i = 0; i < 15; ++i) costs.variances.push_back(std::pow(uniform(random), 4.0));
         for (int i = 0; i < 5; ++i) costs.costs.push_back(uniform(random));
-        for (const LeastError of : {LeastError::of_bounces, LeastError::of_all}) {
+        for (const LeastError least_error : {LeastError::of_bounces, LeastError::of_all}) {
             const auto size = [&](const std::vector<double>& numbers) {
                 const double a = error(costs, 0, numbers), b = error(costs, 1, numbers), c = error(costs, 2, numbers);
-                return of == LeastError::of_bounces ? std::max({a, b, c}) : std::max(a, b) * std::cbrt(a * b * c);
+                return least_error == LeastError::of_bounces ? std::max({a, b, c}) : std::max(a, b) * std::cbrt(a * b * c);
             };
-            const auto numbers = best_numbers(costs, of);
+            const auto numbers = best_numbers(costs, least_error);
             const double least = size(numbers);
             const double budget = std::accumulate(costs.costs.begin(), costs.costs.end(), 0.0);
             for (int other = 0; other < 2000; ++other) {

@@ -148,11 +148,11 @@ TEST(CorrectedFieldsSlow, IntervalsHoldTheTruth) {
     const Scene scene = stock_scene("mitsuba-cornell", 16);
     constexpr int bounces = 4;
     constexpr std::uint64_t seeds = 100;
-    struct Found {
+    struct TermOfSeed {
         Image mean, error;
         MeanWithError of_picture;
     };
-    std::vector<std::vector<Found>> terms(bounces + 1);
+    std::vector<std::vector<TermOfSeed>> terms(bounces + 1);
     for (std::uint64_t seed = 0; seed < seeds; ++seed) {
         const SamplingSettings settings = corrected_settings(scene, bounces, 8, fixed_seed + seed, 0.0);
         const RenderedSeries series = render_series(scene, settings, {32, std::nullopt, std::nullopt});
@@ -169,12 +169,12 @@ TEST(CorrectedFieldsSlow, IntervalsHoldTheTruth) {
         const std::size_t pixels = terms[q][0].mean.pixels.size();
         std::vector<Rgb> truth(pixels, Rgb(0.0));
         double mean = 0.0;
-        for (const Found& f : terms[q]) {
+        for (const TermOfSeed& f : terms[q]) {
             for (std::size_t p = 0; p < pixels; ++p) truth[p] += f.mean.pixels[p] / static_cast<double>(seeds);
             mean += f.of_picture.mean / seeds;
         }
         double held = 0.0, means_held = 0.0;
-        for (const Found& f : terms[q]) {
+        for (const TermOfSeed& f : terms[q]) {
             for (std::size_t p = 0; p < pixels; ++p)
                 for (int c = 0; c < 3; ++c) held += std::abs(f.mean.pixels[p][c] - truth[p][c]) <= t * f.error.pixels[p][c];
             means_held += std::abs(f.of_picture.mean - mean) <= t * f.of_picture.standard_error;

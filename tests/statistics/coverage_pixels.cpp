@@ -189,7 +189,7 @@ TEST(PixelCoverageSlow, WherePathsThatBringMuchAreRare) {
     const auto truth = render_series(scene, settings, {4096, std::nullopt, std::nullopt}).moments.result();
     for (std::size_t bounce = 2; bounce <= 4; ++bounce) {
         const Estimate exact = truth.term(bounce);
-        std::uint64_t of = 0, held = 0, held_by_spread = 0;
+        std::uint64_t values = 0, held = 0, held_by_spread = 0;
         for (settings.seed = 1; settings.seed <= 24; ++settings.seed) {
             const Rendered rendered = render_bounce(scene, settings, 16, bounce);
             const Image errors = rendered.term.pixel_errors();
@@ -199,15 +199,15 @@ TEST(PixelCoverageSlow, WherePathsThatBringMuchAreRare) {
                     const auto holds = [&](double error) {
                         return off <= std::hypot(rendered.t * error, 2.0 * exact.standard_error.pixels[i][c]);
                     };
-                    ++of;
+                    ++values;
                     held += holds(errors.pixels[i][c]);
                     held_by_spread += holds(rendered.term.standard_error.pixels[i][c]);
                 }
         }
-        const auto rate_of = [&](std::uint64_t part) { return static_cast<double>(part) / static_cast<double>(of); };
+        const auto rate_of = [&](std::uint64_t part) { return static_cast<double>(part) / static_cast<double>(values); };
         const double rate = rate_of(held), by_spread = rate_of(held_by_spread);
         std::printf("metal-room, bounce %zu: %.2f%% of %llu; by the spread alone %.2f%%\n", bounce, 100.0 * rate,
-                    static_cast<unsigned long long>(of), 100.0 * by_spread);
+                    static_cast<unsigned long long>(values), 100.0 * by_spread);
         EXPECT_LT(by_spread, 0.92) << bounce << ": nothing to mend";
         EXPECT_GE(rate, 0.93) << bounce;
         EXPECT_LE(rate, 0.995) << bounce;

@@ -133,11 +133,11 @@ TEST(UnbounceRendered, NoiseIsSaid) {
 // A light that shines on the regions of others, too: here the first is the sum of two.
 TEST(UnbounceRendered, OverlappingLightsAreFoundOut) {
     LightPictures lights = corner().pictures();
-    const auto sum = [](const std::function<Estimate(std::size_t)>& of) {
-        return [of](std::size_t j) {
-            Estimate picture = of(j);
+    const auto sum = [](const std::function<Estimate(std::size_t)>& picture_of) {
+        return [picture_of](std::size_t j) {
+            Estimate picture = picture_of(j);
             if (j != 27) return picture;
-            const Estimate other = of(28);
+            const Estimate other = picture_of(28);
             for (std::size_t p = 0; p < picture.mean.pixels.size(); ++p) picture.mean.pixels[p] += 0.5 * other.mean.pixels[p];
             return picture;
         };

@@ -78,7 +78,7 @@ Json blame_json(const Blame& found, const Scene& scene) {
     json["verdict"] = name_of(found.verdict());
     json["right"] = found.verdict() == Blame::Verdict::right;
     json["counting"] = name_of(found.counting);
-    if (found.told) json["counting_by_the_data"] = name_of(*found.told);
+    if (found.counting_by_the_data) json["counting_by_the_data"] = name_of(*found.counting_by_the_data);
     json["noise_known"] = found.knows_their_noise;
     json["samples"] = found.samples;
     json["sentences"] = found.sentences;

@@ -38,12 +38,12 @@ bool is_written_unasked(double bytes, std::optional<double> free) {
 }
 
 bool Checkpoints::is_wanted(double bytes) {
-    if (is_asked_) return true;
+    if (is_requested_) return true;
     std::error_code unknown;
     const auto space = std::filesystem::space(folder_.path(), unknown);
     const auto free = unknown ? std::nullopt : std::optional(static_cast<double>(space.available));
     if (is_written_unasked(bytes, free)) return true;
-    if (!std::exchange(has_told_, true))
+    if (!std::exchange(has_reported_, true))
         tell_(fmt::format(
             "{:.2g} GiB of what is there are not kept on the disk while the render is under way; --checkpoint asks for that",
             bytes / 0x1p30));

@@ -29,7 +29,7 @@ public:
           request_(std::move(request)),
           resuming_(std::move(resuming)),
           seconds_(seconds.value_or(default_checkpoint)),
-          is_asked_(seconds || keeps),
+          is_requested_(seconds || keeps),
           keeps_(keeps),
           has_seconds_(seconds.has_value()),
           tell_(std::move(tell)) {}
@@ -50,7 +50,7 @@ private:
     RequestOnDisk request_;
     std::string resuming_;
     double seconds_;
-    bool is_asked_, keeps_, has_seconds_, has_told_ = false, has_saved_ = false;
+    bool is_requested_, keeps_, has_seconds_, has_reported_ = false, has_saved_ = false;
     std::function<void(const std::string&)> tell_;
     std::uint64_t samples_on_disk_ = 0;
     std::size_t fields_on_disk_ = 0;  // number of replicates

@@ -56,7 +56,7 @@ std::string pixel_text(const Film& film, std::uint32_t number) {
 
 const char* option(Remedy remedy) {
     switch (remedy) {
-        case Remedy::ask_lights:
+        case Remedy::sample_lights:
             return "--method walk --direct mis";
         case Remedy::bidirectional:
             return "--method bidirectional";
@@ -77,8 +77,8 @@ std::string bounce_text(const Health& health, std::size_t q) {
     return q + 1 == health.bounces.size() ? "the rest" : fmt::format("bounce {}", q);
 }
 
-// `of`: the name of the things that `count` counts.
-Json balance_json(const EnergyBalance& balance, const char* unit, const char* of, std::uint64_t count) {
+// `counted`: the name of the things that `count` counts.
+Json balance_json(const EnergyBalance& balance, const char* unit, const char* counted, std::uint64_t count) {
     Json bounces = Json::array();
     for (std::size_t i = 0; i < balance.bounces.size(); ++i) {
         const BalanceOfBounce& b = balance.bounces[i];
@@ -91,7 +91,7 @@ Json balance_json(const EnergyBalance& balance, const char* unit, const char* of
                            {"sick", balance.is_sick(i + 1)}});
     }
     return {{"unit", unit},
-            {of, count},
+            {counted, count},
             {"confidence_of_all_bounces", EnergyBalance::confidence},
             {"begun", mean_json(balance.begun)},
             {"left_the_scene_at_once", mean_json(balance.left)},

@@ -127,15 +127,15 @@ const RecordedSamples& RecordedSamplers::of_seed(std::size_t i) {
     return *samples;
 }
 
-RecordedSamplers::Place RecordedSamplers::find(SampleName name) {
+RecordedSamplers::FoundSample RecordedSamplers::find(SampleName name) {
     const std::uint32_t pixel = name.pixel;
-    const std::uint64_t asked = name.sample;
+    const std::uint64_t requested = name.sample;
     if (!run_.merged.empty() && std::holds_alternative<method::Mixed>(run_.render.method))
         throw InputError(
             "a mixture's samples have their numbers in the render of one seed; expected one of those that were merged");
     // If all pixels have equally many samples, the number is checked before a pilot takes its time.
     if (!adaptive_of(run_.render.method) && !std::holds_alternative<method::Mixed>(run_.render.method))
-        expect_sample(asked, run_.first, run_.samples);
+        expect_sample(requested, run_.first, run_.samples);
     for (std::size_t i = 0; i < run_.merged.size(); ++i) {
         const SeedRange& range = run_.merged[i];
         const RecordedSamples& samples = of_seed(i);
@@ -143,7 +143,7 @@ RecordedSamplers::Place RecordedSamplers::find(SampleName name) {
         if (name.sample < range.count * size) return {samples, {pixel, name.sample + range.first * size}};
         name.sample -= range.count * size;
     }
-    if (!run_.merged.empty()) expect_sample(asked, 0, asked - name.sample);
+    if (!run_.merged.empty()) expect_sample(requested, 0, requested - name.sample);
     const RecordedSamples& samples = of_seed(0);
     const std::uint64_t replicates = run_.samples / run_.render.replicate_size, first = run_.first / run_.render.replicate_size;
     if (const PathSampler& all = samples.sampler().path_sampler(); all.parts() > 0) {
@@ -151,7 +151,7 @@ RecordedSamplers::Place RecordedSamplers::find(SampleName name) {
         const std::uint64_t of_part = sampler.layout().size(pixel), n = replicates * of_part, begin = first * of_part;
         if (name_there.sample < begin || name_there.sample - begin >= n)
             throw OptionError("sample", fmt::format("{}: {} has {} samples in this pixel; expected {} j + {} with j from {} on",
-                                                    asked, method, n, all.parts(), part, begin));
+                                                    requested, method, n, all.parts(), part, begin));
         return {samples, name};
     }
     const std::uint64_t size = samples.sampler().layout().size(pixel);

@@ -54,11 +54,11 @@ public:
 
     // The sampler that has a sample, and its name there; for a merged render, the sampler of the seed that has it.
     // Throws InputError if the run has no such sample.
-    struct Place {
+    struct FoundSample {
         const RecordedSamples& samples;
         SampleName name;
     };
-    Place find(SampleName name);
+    FoundSample find(SampleName name);
     std::vector<ReplicatesOf> replicates();
 
 private:

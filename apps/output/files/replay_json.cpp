@@ -19,7 +19,7 @@ std::string heading(const PathStep& step) {
             return fmt::format("reflection {}{}", step.bounce, step.from_light ? " of the light's path" : "");
         case PathStep::Kind::record:
             return "from the record of the cache that brings most, its brightest ray";
-        case PathStep::Kind::asks:
+        case PathStep::Kind::shadow_ray:
             if (step.is_shared) return "joins a point that pixels share";
             return fmt::format("{} for bounce {}", step.from_light ? "looks at the camera" : "looks for light", step.bounce);
     }
@@ -38,9 +38,9 @@ Json as_json(const ReplayedStep& s, const Scene& scene) {
         {"ray", heading(step)}, {"bounce", step.bounce}, {"from", as_json(step.from.position)}, {"along", as_json(step.w)}};
     if (step.kind == PathStep::Kind::goes_on && !step.from_light)
         json["pdf"] = step.pdf == delta_pdf ? Json("delta") : Json(step.pdf);
-    if (step.kind != PathStep::Kind::asks) json[step.from_light ? "power" : "throughput"] = as_json(step.beta);
+    if (step.kind != PathStep::Kind::shadow_ray) json[step.from_light ? "power" : "throughput"] = as_json(step.beta);
     json["found"] = step.found;
-    if (step.found && step.kind != PathStep::Kind::asks)
+    if (step.found && step.kind != PathStep::Kind::shadow_ray)
         json["meets"] = {{"shape", name_of_shape(scene, step.to.shape)},
                          {"triangle", step.to.primitive},
                          {"at", as_json(step.to.position)},

@@ -65,14 +65,14 @@ FieldProgress fields_from(const Json& json, StateFile& file) {
     seconds.at(0).get_to(progress.seconds);
     seconds.at(1).get_to(progress.field_seconds);
     seconds.at(2).get_to(progress.picture_seconds);
-    for (const Json& of : json.at("series")) {
+    for (const Json& series_json : json.at("series")) {
         SavedSeries series;
-        of.at("has_links").get_to(series.has_links);
-        of.at("rest_converges").get_to(series.rest_converges);
-        of.at("rays").get_to(series.rays);
-        of.at("light_rays").get_to(series.light_rays);
-        for (const Json& p : of.at("power")) series.power.push_back({p.at(0), p.at(1), p.at(2), p.at(3)});
-        series.numbers = file.numbers<float>(of.at("floats").get<std::uint64_t>());
+        series_json.at("has_links").get_to(series.has_links);
+        series_json.at("rest_converges").get_to(series.rest_converges);
+        series_json.at("rays").get_to(series.rays);
+        series_json.at("light_rays").get_to(series.light_rays);
+        for (const Json& p : series_json.at("power")) series.power.push_back({p.at(0), p.at(1), p.at(2), p.at(3)});
+        series.numbers = file.numbers<float>(series_json.at("floats").get<std::uint64_t>());
         series.fields = {series.numbers};
         progress.series.push_back(std::move(series));
     }

@@ -109,12 +109,13 @@ std::vector<double> convergence_of(const std::vector<Checkpoint>& checkpoints, s
 std::vector<Checkpoint> checkpoints_from(std::span<const double> numbers, std::size_t rows, std::size_t terms) {
     std::vector<Checkpoint> checkpoints;
     for (std::size_t row = 0; row < rows; ++row) {
-        const auto of = numbers.subspan(row * (5 + 2 * terms), 5 + 2 * terms);
-        Checkpoint c{std::bit_cast<std::uint64_t>(of[0]), std::bit_cast<std::uint64_t>(of[1]), of[2], {}, of[3], {}, {}};
-        const auto errors = of.subspan(4, terms), true_errors = of.subspan(5 + terms, terms);
+        const auto values = numbers.subspan(row * (5 + 2 * terms), 5 + 2 * terms);
+        Checkpoint c{
+            std::bit_cast<std::uint64_t>(values[0]), std::bit_cast<std::uint64_t>(values[1]), values[2], {}, values[3], {}, {}};
+        const auto errors = values.subspan(4, terms), true_errors = values.subspan(5 + terms, terms);
         c.term_error.assign(errors.begin(), errors.end());
-        if (!std::isnan(of[4 + terms])) {
-            c.true_sum_error = of[4 + terms];
+        if (!std::isnan(values[4 + terms])) {
+            c.true_sum_error = values[4 + terms];
             c.true_term_error.assign(true_errors.begin(), true_errors.end());
         }
         checkpoints.push_back(std::move(c));

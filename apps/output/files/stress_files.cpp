@@ -50,9 +50,9 @@ std::string answer(const TemporaryFolder& folder, const std::string& shapes) {
         (void)read_scene(folder / "scene.xml");
         return "no error";
     } catch (const InputError& error) {
-        std::string said = error.what();
-        for (std::size_t at; (at = said.find(folder / "")) != std::string::npos;) said.erase(at, (folder / "").size());
-        return said;
+        std::string message = error.what();
+        for (std::size_t at; (at = message.find(folder / "")) != std::string::npos;) message.erase(at, (folder / "").size());
+        return message;
     }
 }
 
@@ -62,17 +62,17 @@ void vertices(Figures& figures, std::uint64_t) {
         const std::string why =
             number == "1e999" ? "number '1e999' is beyond the range of double precision" : "vertex coordinate is not finite";
         folder.write("mesh.obj", fmt::format("v 0 0 0\nv 1 0 0\nv 0 {} 0\nf 1 2 3\n", number));
-        figures.said(fmt::format("obj, a coordinate {}", number),
-                     answer(folder, "<shape type='obj'><string name='filename' value='mesh.obj'/></shape>"),
-                     "mesh.obj:3:5: " + why);
+        figures.equal(fmt::format("obj, a coordinate {}", number),
+                      answer(folder, "<shape type='obj'><string name='filename' value='mesh.obj'/></shape>"),
+                      "mesh.obj:3:5: " + why);
         folder.write("mesh.ply",
                      fmt::format("ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
                                  "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
                                  "0 0 0\n1 0 0\n0 {} 0\n3 0 1 2\n",
                                  number));
-        figures.said(fmt::format("ply, a coordinate {}", number),
-                     answer(folder, "<shape type='ply'><string name='filename' value='mesh.ply'/></shape>"),
-                     "mesh.ply:12:3: " + why);
+        figures.equal(fmt::format("ply, a coordinate {}", number),
+                      answer(folder, "<shape type='ply'><string name='filename' value='mesh.ply'/></shape>"),
+                      "mesh.ply:12:3: " + why);
     }
 }
 
@@ -86,13 +86,13 @@ void textures(Figures& figures, std::uint64_t) {
         folder.write("bad.exr", encode_exr(picture, {}));
         const bool negative = value < 0.0;
         const std::string why = "bad.exr: the pixel in column 1 and row 0 is not finite";
-        figures.said(
+        figures.equal(
             fmt::format("reflectance with a texel {}", name),
             answer(folder,
                    "<shape type='rectangle'><bsdf type='diffuse'><texture type='bitmap' name='reflectance'>"
                    "<string name='filename' value='bad.exr'/></texture></bsdf></shape>"),
             negative ? "scene.xml:3:46: the texture is negative somewhere, down to -1, expected a reflectance of at least 0" : why);
-        figures.said(
+        figures.equal(
             fmt::format("envmap with a texel {}", name),
             answer(folder, "<emitter type='envmap'><string name='filename' value='bad.exr'/></emitter>"),
             negative ? "scene.xml:3:48: pixel (1, 0) of 'bad.exr' is (-1, -1, -1), expected numbers that are not negative" : why);
@@ -102,10 +102,10 @@ void textures(Figures& figures, std::uint64_t) {
 void numbers(Figures& figures, std::uint64_t) {
     const TemporaryFolder folder;
     for (const char* number : {"nan", "inf"}) {
-        figures.said(fmt::format("radius {}", number),
-                     answer(folder, fmt::format("<shape type='sphere'><float name='radius' value='{}'/></shape>", number)),
-                     fmt::format("scene.xml:3:43: '{}' is not a finite number", number));
-        figures.said(
+        figures.equal(fmt::format("radius {}", number),
+                      answer(folder, fmt::format("<shape type='sphere'><float name='radius' value='{}'/></shape>", number)),
+                      fmt::format("scene.xml:3:43: '{}' is not a finite number", number));
+        figures.equal(
             fmt::format("radiance {}", number),
             answer(folder,
                    fmt::format("<shape type='sphere'><emitter type='area'><rgb name='radiance' value='{}'/></emitter></shape>",

@@ -60,13 +60,13 @@ Json mean_and_stderr(const MeanWithError& mean) {
 }
 
 Json channel_json(const UnbouncedChannel& channel, const char* name) {
-    const Conditioning& of = channel.conditioning;
+    const Conditioning& conditioning = channel.conditioning;
     return {{"channel", name},
             {"lights", channel.lights.size()},
-            {"condition", json_number(of.condition())},
-            {"smallest_singular_value", json_number(of.smallest)},
-            {"noise", json_number(of.noise)},
-            {"singular", of.is_singular()},
+            {"condition", json_number(conditioning.condition())},
+            {"smallest_singular_value", json_number(conditioning.smallest)},
+            {"noise", json_number(conditioning.noise)},
+            {"singular", conditioning.is_singular()},
             {"regularisation", json_number(channel.regularisation)},
             {"inverse_series_radius", json_number(channel.series_radius)}};
 }

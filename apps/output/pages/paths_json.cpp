@@ -40,7 +40,7 @@ const char* kind_of(PathStep::Kind kind) {
             return "goes on";
         case PathStep::Kind::record:
             return "record";
-        case PathStep::Kind::asks:
+        case PathStep::Kind::shadow_ray:
             return "asks";
     }
     return "";
@@ -62,7 +62,7 @@ public:
     // A ray as replay reports it, with its position on the film and from above.
     Json ray(const ReplayedStep& s) const {
         const PathStep& step = s.step;
-        const bool leaves = step.to.is_infinite() || (!step.found && step.kind != PathStep::Kind::asks);
+        const bool leaves = step.to.is_infinite() || (!step.found && step.kind != PathStep::Kind::shadow_ray);
         const Vec3 from = step.from.position, to = leaves ? from + step.w * far_ : step.to.position;
         Json json = as_json(s, scene_);
         json["kind"] = kind_of(step.kind);
@@ -101,7 +101,7 @@ private:
 // For each number of samples and each bounce: red, green, blue, and their standard errors.
 Json history_json(const PixelHistory& history) {
     Json json = {{"samples", Json::array()}, {"interval_factor", Json::array()}, {"terms", Json::array()}, {"sums", Json::array()}};
-    const auto of = [](const std::vector<PixelHistory::Mean>& means) {
+    const auto means_json = [](const std::vector<PixelHistory::Mean>& means) {
         Json all = Json::array();
         for (const auto& [mean, error] : means) all.push_back({mean.r, mean.g, mean.b, error.r, error.g, error.b});
         return all;
@@ -109,8 +109,8 @@ Json history_json(const PixelHistory& history) {
     for (const PixelHistory::Point& point : history.points) {
         json["samples"].push_back(point.samples);
         json["interval_factor"].push_back(json_number(point.interval_factor));
-        json["terms"].push_back(of(point.terms));
-        json["sums"].push_back(of(point.sums));
+        json["terms"].push_back(means_json(point.terms));
+        json["sums"].push_back(means_json(point.sums));
     }
     return json;
 }

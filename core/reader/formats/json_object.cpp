@@ -50,7 +50,7 @@ JsonObject::JsonObject(const nlohmann::json& value, Location place, Notes& notes
 }
 
 const nlohmann::json* JsonObject::find(const std::string& name, bool (nlohmann::json::*is)() const noexcept, const char* kind) {
-    asked_.push_back(name);
+    queried_.push_back(name);
     const auto found = value_->find(name);
     if (found == value_->end()) return nullptr;
     if (((*found).*is)()) return &*found;
@@ -119,7 +119,7 @@ Rgb JsonObject::color(const std::string& name, double missing, Range range) {
 }
 
 const nlohmann::json* JsonObject::value(const std::string& name) {
-    asked_.push_back(name);
+    queried_.push_back(name);
     const auto found = value_->find(name);
     return found == value_->end() ? nullptr : &*found;
 }
@@ -135,7 +135,7 @@ JsonList JsonObject::list(const std::string& name) {
 }
 
 std::optional<JsonObject> JsonObject::extension(const std::string& name) {
-    asked_extensions_.push_back(name);
+    queried_extensions_.push_back(name);
     const auto all = value_->find("extensions");
     if (all == value_->end() || !all->is_object()) return std::nullopt;
     const auto found = all->find(name);
@@ -158,7 +158,7 @@ bool is_index(const nlohmann::json& value, const JsonList& list, const std::stri
 }
 
 std::optional<std::size_t> JsonObject::index(const std::string& name, const JsonList& list, const std::string& what) {
-    asked_.push_back(name);
+    queried_.push_back(name);
     const auto found = value_->find(name);
     if (found == value_->end()) return std::nullopt;
     if (is_index(*found, list, what, place_of(name), *notes_)) return found->get<std::size_t>();
@@ -178,7 +178,7 @@ std::vector<std::size_t> JsonObject::indices(const std::string& name, const Json
 }
 
 void JsonObject::fail_missing(const std::string& name, const std::string& expected) const {
-    if (wrong_.count(name)) throw Told();
+    if (wrong_.count(name)) throw AlreadyReported();
     throw InputError(place_, fmt::format("{} is missing, expected {}", name, expected));
 }
 
@@ -187,7 +187,7 @@ void JsonObject::complain(const std::string& name, const std::string& what) {
     notes_->problems.add(InputError(place_of(name), what), place_of(name));
 }
 
-void JsonObject::ignore(std::initializer_list<std::string> names) { asked_.insert(asked_.end(), names.begin(), names.end()); }
+void JsonObject::ignore(std::initializer_list<std::string> names) { queried_.insert(queried_.end(), names.begin(), names.end()); }
 
 std::vector<std::string> JsonObject::names() const {
     std::vector<std::string> result;
@@ -196,13 +196,13 @@ std::vector<std::string> JsonObject::names() const {
 }
 
 void JsonObject::finish() {
-    const auto is_asked = [](const std::vector<std::string>& names, const std::string& name) {
+    const auto is_queried = [](const std::vector<std::string>& names, const std::string& name) {
         return std::find(names.begin(), names.end(), name) != names.end();
     };
     for (const auto& [name, value] : value_->items()) {
-        if (is_asked(asked_, name) || (notes_->has_no_effect && name == "extras")) continue;
+        if (is_queried(queried_, name) || (notes_->has_no_effect && name == "extras")) continue;
         if (!notes_->has_no_effect || name != "extensions") {
-            const std::string meant = did_you_mean(name, asked_);
+            const std::string meant = did_you_mean(name, queried_);
             if (meant.empty())
                 notes_->warnings.add(fmt::format("the unknown property '{}' left out", name));
             else if (wrong_.insert(name).second)
@@ -215,7 +215,7 @@ void JsonObject::finish() {
             continue;
         }
         for (const auto& [extension, what] : value.items())
-            if (!is_asked(asked_extensions_, extension) && !notes_->has_no_effect(extension)) notes_->left_out(extension);
+            if (!is_queried(queried_extensions_, extension) && !notes_->has_no_effect(extension)) notes_->left_out(extension);
     }
 }
 

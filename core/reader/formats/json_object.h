@@ -95,7 +95,7 @@ public:
     // The indices in the property, an array; each must be one of the list.
     std::vector<std::size_t> indices(const std::string& name, const JsonList& list, const std::string& what);
 
-    // Throws InputError, or Told if the property is there but wrong.
+    // Throws InputError, or AlreadyReported if the property is there but wrong.
     [[noreturn]] void fail_missing(const std::string& name, const std::string& expected) const;
     bool is_wrong(const std::string& name) const { return wrong_.count(name) > 0; }
     // Adds a problem at the property.
@@ -112,7 +112,7 @@ private:
     const nlohmann::json* value_;
     Location place_;
     Notes* notes_;
-    std::vector<std::string> asked_, asked_extensions_;
+    std::vector<std::string> queried_, queried_extensions_;
     std::set<std::string> wrong_;
 };
 

@@ -28,7 +28,7 @@ struct PlyElement {
     std::string name;
     std::uint64_t count = 0;
     std::vector<PlyProperty> properties;
-    MeshText::Place place;
+    MeshText::LineColumn place;
     struct Attribute {
         std::string name;
         bool is_grey;  // has one channel

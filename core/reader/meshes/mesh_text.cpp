@@ -51,7 +51,7 @@ void MeshText::next_line() {
     if (!at_end()) newline();
 }
 
-void MeshText::fail(const Place& place, const std::string& what) const {
+void MeshText::fail(const LineColumn& place, const std::string& what) const {
     const auto as_int = [](std::size_t n) { return static_cast<int>(std::min<std::size_t>(n, std::numeric_limits<int>::max())); };
     throw InputError(Location{file_, as_int(place.line), as_int(place.column)}, what);
 }

@@ -37,7 +37,7 @@ std::string out_of_range(std::size_t available, std::string_view noun);
 
 class MeshText {
 public:
-    struct Place {
+    struct LineColumn {
         std::size_t line = 1, column = 1;
     };
 
@@ -50,8 +50,8 @@ public:
     bool at_end() const { return at_ == end_; }
     const char* position() const { return at_; }
     std::size_t remaining() const { return static_cast<std::size_t>(end_ - at_); }
-    // Place of the token read last.
-    Place place() const { return {line_, static_cast<std::size_t>(token_ - line_start_) + 1}; }
+    // The position of the token read last.
+    LineColumn place() const { return {line_, static_cast<std::size_t>(token_ - line_start_) + 1}; }
 
     void skip_blanks() {
         while (!at_end()) {
@@ -109,14 +109,14 @@ public:
     }
     bool at_delimiter() const { return is_delimiter(at_); }
     // The place of the cursor, also within a token.
-    Place place_here() const { return {line_, static_cast<std::size_t>(at_ - line_start_) + 1}; }
+    LineColumn place_here() const { return {line_, static_cast<std::size_t>(at_ - line_start_) + 1}; }
 
     void expect_line_end() {
         if (!at_line_end()) fail_expected("the end of the line");
     }
 
     [[noreturn]] void fail(const std::string& what) const { fail(place(), what); }
-    [[noreturn]] void fail(const Place& place, const std::string& what) const;
+    [[noreturn]] void fail(const LineColumn& place, const std::string& what) const;
     // Throws InputError "expected …, found 'token'".
     [[noreturn]] void fail_expected(std::string_view expected) const;
 

@@ -43,7 +43,7 @@ public:
     References(MeshText& text, const char* noun) : text_(text), noun_(noun) {}
 
     // Converts an index of the file to one counted from 0; `count` elements have been read so far.
-    std::uint32_t resolve(std::int64_t index, std::size_t count, const MeshText::Place& place) {
+    std::uint32_t resolve(std::int64_t index, std::size_t count, const MeshText::LineColumn& place) {
         const auto signed_count = static_cast<std::int64_t>(count);
         if (index > signed_count) {
             // Elements that follow may make the index valid. Only indices larger than all before are kept: one of them
@@ -71,7 +71,7 @@ public:
 private:
     struct Ahead {
         std::int64_t index;
-        MeshText::Place place;
+        MeshText::LineColumn place;
     };
     MeshText& text_;
     const char* noun_;

@@ -80,13 +80,13 @@ private:
 
 std::string encode_ply(const MeshFile& file) {
     const TriangleMesh& mesh = file.mesh;
-    const auto of = [](const auto& vectors) {
+    const auto components_of = [](const auto& vectors) {
         return [&vectors](std::size_t i, std::size_t c) { return vectors[i][static_cast<glm::length_t>(c)]; };
     };
     Elements vertices("vertex", mesh.vertices.size()), faces("face", mesh.triangles.size());
-    vertices.add({{"x", "y", "z"}, of(mesh.vertices)});
-    if (!file.normals.empty()) vertices.add({{"nx", "ny", "nz"}, of(file.normals)});
-    if (!mesh.uv.empty()) vertices.add({{"u", "v"}, of(mesh.uv)});
+    vertices.add({{"x", "y", "z"}, components_of(mesh.vertices)});
+    if (!file.normals.empty()) vertices.add({{"nx", "ny", "nz"}, components_of(file.normals)});
+    if (!mesh.uv.empty()) vertices.add({{"u", "v"}, components_of(mesh.uv)});
     for (const MeshAttribute& a : mesh.attributes) (a.of_triangles ? faces : vertices).add(attribute_column(a));
 
     std::string bytes = "ply\nformat binary_little_endian 1.0\n" + vertices.header("") +

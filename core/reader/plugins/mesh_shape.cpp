@@ -69,7 +69,7 @@ TriangleMesh read_mesh_shape(Properties& p, const Context& context) {
     const bool flip_coordinates = p.boolean("flip_tex_coords").value_or(type == "obj");
 
     p.refuse_rest();
-    if (index < 0) throw Told();
+    if (index < 0) throw AlreadyReported();
     const auto& in_memory = context.document.in_memory.meshes;
     const auto ready = in_memory.find(filename.value);
     const bool is_on_disk = type != "ply" || ready == in_memory.end();

@@ -192,7 +192,7 @@ private:
     const Element& sensor_of(const Element& shape, const Properties& batch) const {
         for (const ReadShape& s : shapes_)
             if (s.element == &shape && s.sensor) return *s.sensor;
-        if (context_.problems().any()) throw Told();
+        if (context_.problems().any()) throw AlreadyReported();
         throw InputError(batch.element().place,
                          fmt::format("the shape at {} in sensor 'batch' has no sensor or is not in the scene, expected a reference "
                                      "to one with an 'irradiancemeter'",

@@ -46,12 +46,12 @@ void Definitions::substitute(Attribute& a) {
         } else if (text[i] != '$') {
             result += text[i++];
         } else if (const auto found = longest(text.substr(i + 1)); found != values_.end()) {
-            if (found->second.lost) throw Told();
+            if (found->second.lost) throw AlreadyReported();
             found->second.used = true;
             result += found->second.text;
             i += 1 + found->first.size();
         } else {
-            if (lost_) throw Told();
+            if (lost_) throw AlreadyReported();
             std::size_t end = i + 1;
             while (end < text.size() && is_name_character(text[end])) ++end;
             throw InputError(a.place, fmt::format("{} is not defined; {}", text.substr(i, end - i), names()));

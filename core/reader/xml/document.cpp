@@ -273,7 +273,7 @@ std::string Document::find_file(const Attribute& name) const {
         const std::string text = folder.empty() ? "." : folder;
         if (std::find(shown.begin(), shown.end(), text) == shown.end()) shown.push_back(text);
     }
-    if (lost_folder) throw Told();
+    if (lost_folder) throw AlreadyReported();
     throw InputError(name.place, fmt::format("there is no file '{}'; looked in: {}", name.value, join(shown)));
 }
 

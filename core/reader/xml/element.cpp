@@ -13,7 +13,7 @@ const Attribute* Element::find(std::string_view name) const {
 
 const Attribute& Element::attribute(std::string_view name) const {
     if (const Attribute* a = find(name)) return *a;
-    if (broken) throw Told();
+    if (broken) throw AlreadyReported();
     throw InputError(place, "<" + tag + "> lacks the attribute '" + std::string(name) + "'");
 }
 

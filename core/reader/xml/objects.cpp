@@ -41,7 +41,7 @@ const Element* Objects::known(const Element& reference) const {
 const Element& Objects::find(const Attribute& id, const std::string& what) const {
     const auto found = entries_.find(id.value);
     if (found != entries_.end()) return *found->second.object;
-    if (lost_.others || lost_.ids.count(id.value)) throw Told();
+    if (lost_.others || lost_.ids.count(id.value)) throw AlreadyReported();
     std::vector<std::string> ids;
     for (const auto& [name, entry] : entries_) ids.push_back(name);
     throw InputError(id.place, fmt::format("{} '{}', which is not defined; {}", what, id.value,

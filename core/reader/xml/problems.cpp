@@ -66,7 +66,7 @@ void Problems::replace(const Unknown& unknown, const Location& near) {
     add(unknown, near);
 }
 
-void Problems::expect_told(const Location& near) {
+void Problems::expect_reported(const Location& near) {
     if (lenient_ && !any()) add(InputError(near, "cannot be read without what is not known"), near);
 }
 

@@ -14,9 +14,9 @@
 namespace neumann::reader {
 
 // Thrown if something cannot be read because of a problem that is already in the list.
-class Told : public InputError {
+class AlreadyReported : public InputError {
 public:
-    Told() : InputError("a problem that has been told") {}
+    AlreadyReported() : InputError("a problem that has been told") {}
 };
 
 // Thrown for something that is not known here, as opposed to something that is wrong.
@@ -55,8 +55,8 @@ public:
         } else {
             try {
                 return std::optional<Result>(f());
-            } catch (const Told&) {
-                expect_told(near);
+            } catch (const AlreadyReported&) {
+                expect_reported(near);
             } catch (const InputError& problem) {
                 add(problem, near);
             }
@@ -73,7 +73,7 @@ public:
 
 private:
     // Adds a problem if none explains why something could not be read, so that nothing is left out silently.
-    void expect_told(const Location& near);
+    void expect_reported(const Location& near);
 
     bool lenient_;
     mutable std::mutex mutex_;

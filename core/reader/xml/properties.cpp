@@ -29,7 +29,7 @@ bool contains(const std::vector<std::string>& names, const std::string& name) {
 
 Properties::Properties(const Element& element, const Objects& objects)
     : element_(element), objects_(objects), title_(fmt::format("{} '{}'", element.tag, element.attribute("type").value)) {
-    if (element.broken) throw Told();
+    if (element.broken) throw AlreadyReported();
     std::map<std::string, const Element*> seen;
     for (const Element& e : element.children) {
         const Attribute* name = e.find("name");
@@ -46,12 +46,12 @@ Properties::Properties(const Element& element, const Objects& objects)
 
 void Properties::add(const Location& place, const std::string& what) {
     problems().add(InputError(place, what), element_.place);
-    told_ = true;
+    reported_ = true;
 }
 
 void Properties::refuse(const Location& place, const std::string& what, const std::string& expected) {
     problems().add(Unknown(place, what, expected, "ignored"), element_.place);
-    told_ = told_ || !problems().lenient();
+    reported_ = reported_ || !problems().lenient();
 }
 
 const Element* Properties::parameter(const std::string& name) const {
@@ -72,12 +72,12 @@ const Element* Properties::resolve(const Element& e) {
         return nullptr;
     }
     const Element* object = nullptr;
-    if (!problems().attempt(element_.place, [&] { object = &objects_.find(id); })) told_ = incomplete_ = true;
+    if (!problems().attempt(element_.place, [&] { object = &objects_.find(id); })) reported_ = incomplete_ = true;
     return object;
 }
 
 const Element* Properties::find(const std::string& name, const std::vector<std::string>& types) {
-    if (!contains(asked_, name)) asked_.push_back(name);
+    if (!contains(queried_, name)) queried_.push_back(name);
     const Element* e = parameter(name);
     if (!e || e->broken) return nullptr;
     if (contains(types, e->tag)) {
@@ -92,7 +92,7 @@ const Element* Properties::find(const std::string& name, const std::vector<std::
 
 const Element& Properties::require(const std::string& name, const std::vector<std::string>& types) {
     if (const Element* e = find(name, types)) return *e;
-    if (incomplete_ || spoilt_.count(name)) throw Told();
+    if (incomplete_ || spoilt_.count(name)) throw AlreadyReported();
     throw InputError(element_.place, fmt::format("{} lacks the parameter '{}', expected {}", title_, name, join_or(types)));
 }
 
@@ -148,7 +148,7 @@ Mat4 Properties::transform(const std::string& name) {
 }
 
 const Element* Properties::object(const std::string& name, const std::string& tag) {
-    if (!contains(asked_, name)) asked_.push_back(name);
+    if (!contains(queried_, name)) queried_.push_back(name);
     const Element *first = parameter(name), *found = nullptr;
     for (const Element& e : element_.children) {
         const Attribute* given = is_parameter(e.tag) ? nullptr : e.find("name");
@@ -169,7 +169,7 @@ const Element* Properties::object(const std::string& name, const std::string& ta
 }
 
 std::vector<const Element*> Properties::nested(const std::string& tag, std::size_t limit) {
-    if (!contains(asked_tags_, tag)) asked_tags_.push_back(tag);
+    if (!contains(queried_tags_, tag)) queried_tags_.push_back(tag);
     std::vector<const Element*> found;
     for (const Element& e : element_.children) {
         if (is_parameter(e.tag)) continue;
@@ -186,7 +186,7 @@ std::vector<const Element*> Properties::nested(const std::string& tag, std::size
 
 std::vector<const Element*> Properties::all_nested(const std::vector<std::string>& tags) {
     for (const std::string& tag : tags)
-        if (!contains(asked_tags_, tag)) asked_tags_.push_back(tag);
+        if (!contains(queried_tags_, tag)) queried_tags_.push_back(tag);
     std::vector<const Element*> found;
     for (const Element& e : element_.children) {
         if (is_parameter(e.tag)) continue;
@@ -210,12 +210,12 @@ void Properties::complain(const std::string& name, const std::string& what, cons
 }
 
 void Properties::fail(const std::string& name, const std::string& what) const {
-    if (told_ || !spoilt_.empty()) throw Told();
+    if (reported_ || !spoilt_.empty()) throw AlreadyReported();
     throw InputError(place_of(name), what);
 }
 
 void Properties::fail_empty(const std::string& what) const {
-    if (incomplete_) throw Told();
+    if (incomplete_) throw AlreadyReported();
     throw InputError(element_.place, what);
 }
 
@@ -230,7 +230,7 @@ void Properties::refuse_rest() {
         if (e.broken || !read_.insert(&e).second) continue;
         const auto unknown = [&](const Attribute& name) {
             refuse(name.place, fmt::format("unknown parameter '{}' of {}", name.value, title_),
-                   "; " + (asked_.empty() ? "it has none" : allowed_instead(name.value, asked_)));
+                   "; " + (queried_.empty() ? "it has none" : allowed_instead(name.value, queried_)));
         };
         if (is_parameter(e.tag)) {
             unknown(e.attribute("name"));
@@ -238,25 +238,25 @@ void Properties::refuse_rest() {
         }
         const Element* object = resolve(e);
         if (!object) continue;
-        const Attribute* name = object->tag == "texture" && !contains(asked_tags_, "texture") ? e.find("name") : nullptr;
-        if (name && contains(asked_, name->value))
+        const Attribute* name = object->tag == "texture" && !contains(queried_tags_, "texture") ? e.find("name") : nullptr;
+        if (name && contains(queried_, name->value))
             refuse(name->place, fmt::format("parameter '{}' of {} is a texture, which is not supported there", name->value, title_),
                    "");
         else if (name)
             unknown(*name);
         else
             refuse(e.place, fmt::format("unexpected {}<{}> in {}", e.tag == "ref" ? "reference to a " : "", object->tag, title_),
-                   asked_tags_.empty() ? "; nothing is nested in it" : "; allowed: " + join(asked_tags_));
+                   queried_tags_.empty() ? "; nothing is nested in it" : "; allowed: " + join(queried_tags_));
     }
 }
 
 void Properties::finish() {
     refuse_rest();
-    if (told_ || !spoilt_.empty()) throw Told();
+    if (reported_ || !spoilt_.empty()) throw AlreadyReported();
 }
 
 void fail_type(const Element& e, const std::vector<std::string>& allowed, const std::string& instead) {
-    if (e.broken) throw Told();
+    if (e.broken) throw AlreadyReported();
     const Attribute& type = e.attribute("type");
     const std::string_view advice = instead_of(e.tag, type.value);
     throw Unknown(type.place, fmt::format("{} type '{}' is not supported", e.tag, type.value),

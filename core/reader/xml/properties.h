@@ -82,9 +82,9 @@ private:
     std::string title_;
     std::set<const Element*> read_;
     std::set<std::string> spoilt_;  // parameters with a problem
-    bool told_ = false;             // another problem has been reported
+    bool reported_ = false;         // another problem has been reported
     bool incomplete_ = false;       // a nested element could not be read at all
-    std::vector<std::string> asked_, asked_tags_;
+    std::vector<std::string> queried_, queried_tags_;
 };
 
 // Throws Unknown "bsdf type 'wood' is not supported; allowed: …", or says what can be taken in place of a type that

@@ -147,7 +147,8 @@ private:
         result_.counting = counting_.value_or(likely);
         constexpr double close = 0.02, clearly = 4.0;
         const double misfit = misfit_of_means(pictures, likely, sums);
-        if (misfit < close && misfit_of_means(pictures, result_.counting, sums) > clearly * misfit + close) result_.told = likely;
+        if (misfit < close && misfit_of_means(pictures, result_.counting, sums) > clearly * misfit + close)
+            result_.counting_by_the_data = likely;
     }
 
     // Finds the factor from our variance to theirs, from the picture with the smallest one: mistakes only increase it.

@@ -52,7 +52,7 @@ struct Blame {
     enum class Verdict { right, wrong, unclear };
 
     Counting counting = Counting::mitsuba;
-    std::optional<Counting> told;  // set if the data say something else
+    std::optional<Counting> counting_by_the_data;  // set if the data say something else
     // Whether it is from a second picture or a variance; otherwise it is taken as ours times a number.
     bool knows_their_noise = false;
     std::vector<TermVerdict> terms;

@@ -53,16 +53,16 @@ struct BlockNoise {
     double squares = 0.0, cubes = 0.0, fourths = 0.0;  // sums over pixels of the difference less its mean, to these powers
 };
 
-// `said`: the sum of the variances that the pictures have for the pixels.
-BlockNoise noise_in(BlockDifference& of, int c, const Image& difference, double said) {
+// `variances`: the sum of the variances that the pictures have for the pixels.
+BlockNoise noise_in(BlockDifference& block, int c, const Image& difference, double variances) {
     double sum = 0.0;
     const auto for_pixels = [&](const auto& f) {
-        for (int y = of.y; y < of.y + of.height; ++y)
-            for (int x = of.x; x < of.x + of.width; ++x) f(difference.at(x, y)[c]);
+        for (int y = block.y; y < block.y + block.height; ++y)
+            for (int x = block.x; x < block.x + block.width; ++x) f(difference.at(x, y)[c]);
     };
     for_pixels([&](double d) { sum += d; });
-    const double n = of.pixels(), mean = sum / n;
-    of.mean[c] = mean;
+    const double n = block.pixels(), mean = sum / n;
+    block.mean[c] = mean;
     BlockNoise noise;
     for_pixels([&](double d) {
         const double square = (d - mean) * (d - mean);
@@ -70,7 +70,7 @@ BlockNoise noise_in(BlockDifference& of, int c, const Image& difference, double 
         noise.cubes += square * (d - mean);
         noise.fourths += square * square;
     });
-    noise.variance = std::max(n > 1.0 ? noise.squares / (n - 1.0) : 0.0, said / n);
+    noise.variance = std::max(n > 1.0 ? noise.squares / (n - 1.0) : 0.0, variances / n);
     return noise;
 }
 
@@ -132,18 +132,18 @@ BlockDifferences block_differences(const PictureNoise& a, const PictureNoise& b)
         std::vector<BlockNoise> noise;
         double sum = 0.0;
         PooledNoise everywhere;
-        for (BlockDifference& of : blocks) {
-            double said = 0.0, light_a = 0.0, light_b = 0.0;
-            for (int y = of.y; y < of.y + of.height; ++y)
-                for (int x = of.x; x < of.x + of.width; ++x) {
-                    said += a.variance.at(x, y)[c] + b.variance.at(x, y)[c];
+        for (BlockDifference& block : blocks) {
+            double variances = 0.0, light_a = 0.0, light_b = 0.0;
+            for (int y = block.y; y < block.y + block.height; ++y)
+                for (int x = block.x; x < block.x + block.width; ++x) {
+                    variances += a.variance.at(x, y)[c] + b.variance.at(x, y)[c];
                     light_a += a.mean.at(x, y)[c];
                     light_b += b.mean.at(x, y)[c];
                 }
-            noise.push_back(noise_in(of, c, difference, said));
-            noise.back().level = std::max(std::abs(light_a), std::abs(light_b)) / of.pixels();
-            everywhere.add(noise.back(), of.pixels());
-            sum += of.mean[c] * of.pixels();
+            noise.push_back(noise_in(block, c, difference, variances));
+            noise.back().level = std::max(std::abs(light_a), std::abs(light_b)) / block.pixels();
+            everywhere.add(noise.back(), block.pixels());
+            sum += block.mean[c] * block.pixels();
         }
         result.freedom[c] = everywhere.freedom(sum);
         for (int y = 0; y < down; ++y)

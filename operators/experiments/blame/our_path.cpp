@@ -26,8 +26,8 @@ std::vector<OurPath> paths_of(const Scene& scene, const Replay& replay, std::uin
         OurPath ends = path;
         ends.vertices.push_back(vertex_of(scene, step, path.camera));
         ends.bounce = step.bounce;
-        ends.is_blocked = step.kind == PathStep::Kind::asks && !step.found;
-        if (step.kind != PathStep::Kind::asks) path.vertices = ends.vertices;
+        ends.is_blocked = step.kind == PathStep::Kind::shadow_ray && !step.found;
+        if (step.kind != PathStep::Kind::shadow_ray) path.vertices = ends.vertices;
         for (const auto& f : found)
             if (const auto brings = static_cast<int>(f.quantity); brings >= bounces.first && brings <= bounces.last)
                 ends.value += f.value;

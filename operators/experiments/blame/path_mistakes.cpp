@@ -124,7 +124,7 @@ private:
         void follow(int x, int y, Sampler& sampler);
         // Adds the contributions to this bounce to the range that contains it.
         void put(int bounce);
-        void ask_lamp(const SurfaceSide& side, const SurfacePoint& x, const Vec3& wo, const Rgb& beta, Sampler& sampler);
+        void sample_lamp(const SurfaceSide& side, const SurfacePoint& x, const Vec3& wo, const Rgb& beta, Sampler& sampler);
         void hit(const SurfacePoint& x, const Vec3& wo, const Rgb& beta, double pdf, double pdf_of_lamp, bool had_diffuse);
         void reflect(const SurfaceSide& side, const SurfacePoint& x, const Vec3& wo, const Rgb& beta, int bounce, bool is_mirror);
 
@@ -169,7 +169,8 @@ LampSample WrongPaths::sample_lamp(const SurfacePoint& x, Sampler& sampler) cons
     return s;
 }
 
-void WrongPaths::Walk::ask_lamp(const SurfaceSide& side, const SurfacePoint& x, const Vec3& wo, const Rgb& beta, Sampler& sampler) {
+void WrongPaths::Walk::sample_lamp(const SurfaceSide& side, const SurfacePoint& x, const Vec3& wo, const Rgb& beta,
+                                   Sampler& sampler) {
     const LampSample s = paths.sample_lamp(x, sampler);
     if (!(s.pdf > 0.0) || is_black(s.light)) return;
     const Vec3 wi = side.p.frame.to_local(s.w);
@@ -305,7 +306,7 @@ void WrongPaths::Walk::follow(int column, int row, Sampler& sampler) {
         const Vec3 local = side.p.frame.to_local(wo);
         arrived = factor;
         reflect(side, x, local, beta, bounce, false);
-        if (!paths.lights_.empty()) ask_lamp(side, x, local, beta, sampler);
+        if (!paths.lights_.empty()) sample_lamp(side, x, local, beta, sampler);
         const BsdfSample sampled = sample(*side.bsdf, side.p, local, sampler.next2());
         if (!(sampled.pdf > 0.0) || is_black(sampled.weight)) {
             put(bounce);

@@ -33,15 +33,15 @@ Image flipped(const Image& image, bool across, bool down) {
 }
 
 // A weighted sum of pixels acts on means with the weights, and on variances with their squares.
-enum class Of { means, variances };
-double weight(double w, Of of) { return of == Of::means ? w : w * w; }
+enum class Quantity { means, variances };
+double weight(double w, Quantity quantity) { return quantity == Quantity::means ? w : w * w; }
 
 // Content moves by (dx, dy) pixels; bilinear between pixels.
-Image shifted(const Image& image, double dx, double dy, Of of) {
+Image shifted(const Image& image, double dx, double dy, Quantity quantity) {
     return made(image, [&](int x, int y) {
         const double u = x - dx, v = y - dy, i = std::floor(u), j = std::floor(v);
-        const double right = weight(u - i, of), left = weight(1.0 - (u - i), of), low = weight(v - j, of),
-                     top = weight(1.0 - (v - j), of);
+        const double right = weight(u - i, quantity), left = weight(1.0 - (u - i), quantity), low = weight(v - j, quantity),
+                     top = weight(1.0 - (v - j), quantity);
         const int l = static_cast<int>(i), t = static_cast<int>(j);
         return (at_edge(image, l, t) * left + at_edge(image, l + 1, t) * right) * top +
                (at_edge(image, l, t + 1) * left + at_edge(image, l + 1, t + 1) * right) * low;
@@ -49,13 +49,13 @@ Image shifted(const Image& image, double dx, double dy, Of of) {
 }
 
 // A Gaussian of this standard deviation, in pixels.
-Image blurred(const Image& image, double sigma, Of of) {
+Image blurred(const Image& image, double sigma, Quantity quantity) {
     const int reach = static_cast<int>(std::ceil(3.0 * sigma));
     std::vector<double> weights;
     double sum = 0.0;
     for (int i = -reach; i <= reach; ++i) weights.push_back(std::exp(-0.5 * i * i / (sigma * sigma)));
     for (const double w : weights) sum += w;
-    for (double& w : weights) w = weight(w / sum, of);
+    for (double& w : weights) w = weight(w / sum, quantity);
     const auto pass = [&](const Image& from, int across, int down) {
         return made(from, [&](int x, int y) {
             Rgb mean(0.0);
@@ -75,13 +75,15 @@ class Terms {
 public:
     Terms(const std::vector<ComparedTerm>& terms, bool are_sums) : terms_(terms), are_sums_(are_sums) {}
 
-    WrongPictures linear(const std::string& name, const std::string& words, const std::function<Image(const Image&, Of)>& f) const {
+    WrongPictures linear(const std::string& name, const std::string& words,
+                         const std::function<Image(const Image&, Quantity)>& f) const {
         WrongPictures wrong{name, words, {}};
-        for (const ComparedTerm& t : terms_) wrong.terms.push_back({f(t.ours.mean, Of::means), f(t.ours.variance, Of::variances)});
+        for (const ComparedTerm& t : terms_)
+            wrong.terms.push_back({f(t.ours.mean, Quantity::means), f(t.ours.variance, Quantity::variances)});
         return wrong;
     }
     WrongPictures smoothed(const std::string& name, const std::string& words,
-                           const std::function<Image(const Image&, Of)>& f) const {
+                           const std::function<Image(const Image&, Quantity)>& f) const {
         WrongPictures wrong = linear(name, words, f);
         wrong.is_smoothed = true;
         return wrong;
@@ -238,27 +240,29 @@ double fitted_factor(const PictureNoise& theirs, const PictureNoise& ours) {
 PictureNoise scaled(const PictureNoise& picture, double factor) { return scaled_evenly(picture, factor); }
 
 std::vector<WrongPictures> moved_pictures(const std::vector<ComparedTerm>& terms, bool are_sums) {
-    const Terms of(terms, are_sums);
+    const Terms mistakes(terms, are_sums);
     std::vector<WrongPictures> all;
-    all.push_back(of.linear("flipped_x", "the picture is mirrored left to right",
-                            [](const Image& p, Of) { return flipped(p, true, false); }));
-    all.push_back(
-        of.linear("flipped_y", "the picture stands on its head", [](const Image& p, Of) { return flipped(p, false, true); }));
-    all.push_back(of.linear("turned", "the picture is turned by 180°", [](const Image& p, Of) { return flipped(p, true, true); }));
+    all.push_back(mistakes.linear("flipped_x", "the picture is mirrored left to right",
+                                  [](const Image& p, Quantity) { return flipped(p, true, false); }));
+    all.push_back(mistakes.linear("flipped_y", "the picture stands on its head",
+                                  [](const Image& p, Quantity) { return flipped(p, false, true); }));
+    all.push_back(mistakes.linear("turned", "the picture is turned by 180°",
+                                  [](const Image& p, Quantity) { return flipped(p, true, true); }));
     for (const double dx : {-1.0, -0.5, 0.0, 0.5, 1.0})
         for (const double dy : {-1.0, -0.5, 0.0, 0.5, 1.0})
             if (dx != 0.0 || dy != 0.0)
-                all.push_back(of.smoothed("shifted",
-                                          fmt::format("the picture is shifted by {:g} pixels to the right and {:g} down", dx, dy),
-                                          [=](const Image& p, Of what) { return shifted(p, dx, dy, what); }));
+                all.push_back(mistakes.smoothed(
+                    "shifted", fmt::format("the picture is shifted by {:g} pixels to the right and {:g} down", dx, dy),
+                    [=](const Image& p, Quantity what) { return shifted(p, dx, dy, what); }));
     for (const double sigma : {0.35, 0.5, 0.7, 1.0})
-        all.push_back(of.smoothed("blurred", fmt::format("the pixel filter is wider, by a Gaussian of about {:g} pixels", sigma),
-                                  [=](const Image& p, Of what) { return blurred(p, sigma, what); }));
-    all.push_back(of.encoded("encoded", "the pictures are encoded as sRGB, not linear", to_srgb));
-    all.push_back(of.encoded("encoded", "the pictures are encoded by a gamma of 2.2, not linear",
-                             [](double v) { return std::pow(std::max(v, 0.0), 1.0 / 2.2); }));
-    all.push_back(of.encoded("encoded", "the pictures are decoded from sRGB although they were linear", from_srgb));
-    all.push_back(of.encoded("cut_off", "values above 1 are cut off", [](double v) { return std::min(v, 1.0); }));
+        all.push_back(mistakes.smoothed("blurred",
+                                        fmt::format("the pixel filter is wider, by a Gaussian of about {:g} pixels", sigma),
+                                        [=](const Image& p, Quantity what) { return blurred(p, sigma, what); }));
+    all.push_back(mistakes.encoded("encoded", "the pictures are encoded as sRGB, not linear", to_srgb));
+    all.push_back(mistakes.encoded("encoded", "the pictures are encoded by a gamma of 2.2, not linear",
+                                   [](double v) { return std::pow(std::max(v, 0.0), 1.0 / 2.2); }));
+    all.push_back(mistakes.encoded("encoded", "the pictures are decoded from sRGB although they were linear", from_srgb));
+    all.push_back(mistakes.encoded("cut_off", "values above 1 are cut off", [](double v) { return std::min(v, 1.0); }));
     return all;
 }
 

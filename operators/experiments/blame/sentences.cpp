@@ -100,9 +100,9 @@ std::vector<std::string> sentences_about(const Blame& blame, const Scene& scene)
     } else {
         say.push_back(no_difference(blame.terms));
     }
-    if (blame.told)
-        say.push_back(fmt::format("The pictures' means look as if depths were counted as {} does, not as {}.", name_of(*blame.told),
-                                  name_of(blame.counting)));
+    if (blame.counting_by_the_data)
+        say.push_back(fmt::format("The pictures' means look as if depths were counted as {} does, not as {}.",
+                                  name_of(*blame.counting_by_the_data), name_of(blame.counting)));
     if (!blame.knows_their_noise)
         say.push_back("Their noise was judged by the pictures themselves; those of a second seed would tell it.");
     return say;

@@ -46,13 +46,13 @@ void Figures::at_least(std::string quantity, double measured, double limit) {
     all_.back().passed = measured >= limit;
 }
 
-void Figures::said(std::string quantity, std::string measured, std::string expected) {
+void Figures::equal(std::string quantity, std::string measured, std::string expected) {
     const bool same = measured == expected;
     all_.push_back({std::move(quantity), std::move(expected), std::move(measured)});
     all_.back().passed = same;
 }
 
-void Figures::holds(std::string quantity, bool holds) { said(std::move(quantity), holds ? "yes" : "no", "yes"); }
+void Figures::holds(std::string quantity, bool holds) { equal(std::move(quantity), holds ? "yes" : "no", "yes"); }
 
 void Figures::fail(std::string quantity, std::string why) {
     all_.push_back({std::move(quantity), "an answer", "none"});

@@ -46,7 +46,7 @@ public:
     void terms(const Estimates& found, std::span<const double> expected, int first = 1, double bias = 0.0);
     void at_most(std::string quantity, double measured, double limit);
     void at_least(std::string quantity, double measured, double limit);
-    void said(std::string quantity, std::string measured, std::string expected);
+    void equal(std::string quantity, std::string measured, std::string expected);
     void holds(std::string quantity, bool holds);
     void fail(std::string quantity, std::string why);
 

@@ -54,18 +54,18 @@ SensorOptions looking(const Vec3& from, const Vec3& to) {
     return camera;
 }
 
-struct Place {
+struct SheetEdges {
     Vec3 corner, a, b;
 };
-Place place(const Sheet& sheet) {
-    return sheet.is_mirror ? Place{{2, -2, 0.05}, {0, 0, 2}, {0, 4, 0}} : Place{{-2, -2, 1.2}, {0, 4, 0}, {4, 0, 0}};
+SheetEdges edges_of(const Sheet& sheet) {
+    return sheet.is_mirror ? SheetEdges{{2, -2, 0.05}, {0, 0, 2}, {0, 4, 0}} : SheetEdges{{-2, -2, 1.2}, {0, 4, 0}, {4, 0, 0}};
 }
 
 Scene scene_of(const Sheet& sheet, bool with_deltas) {
     SceneMaker maker;
     // The floor is so large that nothing else is seen in the sheet above.
     maker.add(parallelogram({-5.5, -5.5, 0}, {11, 0, 0}, {0, 11, 0}), matte(floor_rho));
-    const Place at = place(sheet);
+    const SheetEdges at = edges_of(sheet);
     maker.add(parallelogram(at.corner, at.a, at.b), sheet.surface);
     maker.parts.lights.environment = ConstantEnvironment(grey(sky));
     if (with_deltas)
@@ -79,7 +79,7 @@ Scene scene_of(const Sheet& sheet, bool with_deltas) {
 // ∫ f cosθ cosθ'/(π r²) dA over the sheet, seen from a floor that faces up.
 template <class F>
 double over_sheet(const Sheet& sheet, const Vec3& p, const F& f) {
-    const Place at = place(sheet);
+    const SheetEdges at = edges_of(sheet);
     const Vec3 normal = glm::cross(at.a, at.b);
     using Gauss = boost::math::quadrature::gauss<double, 30>;
     return Gauss::integrate(
@@ -106,7 +106,7 @@ std::array<double, 2> exact(const Sheet& sheet, const Vec3& p, Finds finds) {
     };
     if (sheet.is_mirror) {
         const double by_sun = sun * -low_sun_direction.z / pi;
-        const Vec3 image(2.0 * place(sheet).corner.x - lamp_before.x, lamp_before.y, lamp_before.z);
+        const Vec3 image(2.0 * edges_of(sheet).corner.x - lamp_before.x, lamp_before.y, lamp_before.z);
         if (finds != Finds::sky) terms[0] += by_sun + by_lamp(lamp_before);
         if (finds == Finds::all) terms[1] += by_mirror * (by_sun + by_lamp(image));
     } else if (finds == Finds::all) {
@@ -116,32 +116,33 @@ std::array<double, 2> exact(const Sheet& sheet, const Vec3& p, Finds finds) {
     return {floor_rho * terms[0], floor_rho * terms[1]};
 }
 
-struct Look {
+struct MethodCase {
     Method method;
     std::uint64_t samples;
     Finds finds;
     double error = 0.03;  // upper limit on the relative standard error with the stated bias
 };
 
-void floor_below(Figures& figures, std::uint64_t seed, const Sheet& sheet, const Look& look) {
-    const Scene scene = scene_of(sheet, look.finds != Finds::sky);
+void floor_below(Figures& figures, std::uint64_t seed, const Sheet& sheet, const MethodCase& method_case) {
+    const Scene scene = scene_of(sheet, method_case.finds != Finds::sky);
     constexpr int grid = 16;
     std::array<double, 2> terms{0.0, 0.0};
     for (int y = 0; y < grid; ++y)
         for (int x = 0; x < grid; ++x) {
             const CameraRay ray = scene.camera.ray({4.0 * (x + 0.5) / grid, 4.0 * (y + 0.5) / grid});
             const Vec3 p = ray.origin - ray.direction * (ray.origin.z / ray.direction.z);
-            const std::array<double, 2> here = exact(sheet, p, look.finds);
+            const std::array<double, 2> here = exact(sheet, p, method_case.finds);
             for (std::size_t i = 0; i < 2; ++i) terms[i] += here[i] / (grid * grid);
         }
-    const BounceSeries found = render(scene, look.method, {.bounces = 2, .samples = look.samples, .replicates = 16, .seed = seed});
+    const BounceSeries found =
+        render(scene, method_case.method, {.bounces = 2, .samples = method_case.samples, .replicates = 16, .seed = seed});
     for (std::size_t i = 1; i <= 2; ++i) {
         const BounceReport& bounce = found.report.bounces[i];
         const MeanWithError& mean = bounce.mean;
         const double bias = bounce.discretisation ? bounce.discretisation->mean : 0.0;
         figures.near(fmt::format("K^{} Le", i), mean.mean, terms[i - 1],
                      student_t_quantile(1.0 - 6.8e-6, mean.degrees_of_freedom) * mean.standard_error + bias + 1e-6);
-        figures.at_most("  standard error and bias, relative", (mean.standard_error + bias) / mean.mean, look.error);
+        figures.at_most("  standard error and bias, relative", (mean.standard_error + bias) / mean.mean, method_case.error);
     }
 }
 
@@ -151,24 +152,25 @@ Cases glowing_cases() {
     using enum Finds;
     constexpr std::size_t patches = 60;
     constexpr std::uint32_t directions = 4096;
-    const std::vector<Look> looks{{method::Walk{}, 1024, sky_and_seen_lamps},
-                                  {method::Guided{}, 2048, sky_and_seen_lamps},
-                                  {method::Corrected{}, 1024, sky_and_seen_lamps},
-                                  {method::Light{}, 1 << 17, all},
-                                  {method::Bidirectional{}, 1 << 15, all},
-                                  {method::Photon{{}, 1 << 16, 0.1}, 256, all, 0.2},
-                                  {method::Cache{}, 256, sky_and_seen_lamps},
-                                  {method::Metropolis{}, 1 << 16, all},
-                                  {method::Mixed{}, 1 << 14, all},
-                                  {method::Pointwise{}, 1024, Finds::sky},
-                                  {method::Patches{{10 * patches, directions}}, 256, all, 0.5},
-                                  {method::Matrix{{patches, directions}}, 1024, all},
-                                  {method::Gather{{patches, directions}}, 1024, all}};
+    const std::vector<MethodCase> method_cases{{method::Walk{}, 1024, sky_and_seen_lamps},
+                                               {method::Guided{}, 2048, sky_and_seen_lamps},
+                                               {method::Corrected{}, 1024, sky_and_seen_lamps},
+                                               {method::Light{}, 1 << 17, all},
+                                               {method::Bidirectional{}, 1 << 15, all},
+                                               {method::Photon{{}, 1 << 16, 0.1}, 256, all, 0.2},
+                                               {method::Cache{}, 256, sky_and_seen_lamps},
+                                               {method::Metropolis{}, 1 << 16, all},
+                                               {method::Mixed{}, 1 << 14, all},
+                                               {method::Pointwise{}, 1024, Finds::sky},
+                                               {method::Patches{{10 * patches, directions}}, 256, all, 0.5},
+                                               {method::Matrix{{patches, directions}}, 1024, all},
+                                               {method::Gather{{patches, directions}}, 1024, all}};
     Cases cases;
     for (const Sheet& sheet : sheets())
-        for (const Look& look : looks)
-            cases.push_back({fmt::format("glowing/{}/{}", sheet.name, name_of(look.method)), "form factors, Fresnel: quadrature",
-                             [=](Figures& figures, std::uint64_t seed) { floor_below(figures, seed, sheet, look); }});
+        for (const MethodCase& method_case : method_cases)
+            cases.push_back({fmt::format("glowing/{}/{}", sheet.name, name_of(method_case.method)),
+                             "form factors, Fresnel: quadrature",
+                             [=](Figures& figures, std::uint64_t seed) { floor_below(figures, seed, sheet, method_case); }});
     return cases;
 }
 

@@ -54,13 +54,13 @@ void near_an_edge(Figures& figures, std::uint64_t seed) {
 // standard errors): fewer than half of six runs recognise it once in 40,000 times.
 void says_infinite(Figures& figures, const std::string& quantity, const Scene& scene, const StartPicker& from, std::size_t term,
                    std::uint64_t seed) {
-    double said = 0.0;
+    double runs = 0.0;
     for (std::uint64_t run = 0; run < 6; ++run) {
         const Estimates found = probe(scene, from, Technique::light, independent(16384, 2, seed + (run << 32)));
         const auto tail = tail_index(found.largest[term]);
-        said += tail && tail->variance_is_infinite();
+        runs += tail && tail->variance_is_infinite();
     }
-    figures.at_least(quantity + ": infinite variance in runs of 6", said, 3.0);
+    figures.at_least(quantity + ": infinite variance in runs of 6", runs, 3.0);
 }
 
 // Both points are random on squares that share an edge: P(X > x) = 0.0217927 x^−1.5, to 2% from x = 10 on. Counts are

@@ -66,7 +66,7 @@ void bounds_of_furnace(Figures& figures, std::uint64_t) {
 void alternating(Figures& figures, std::uint64_t) {
     const DenseChannel K = plates();
     const SeriesRun run = run_series(K, vector({1, 0}), {.tolerance = 1e-6, .norm = 0.9});
-    figures.said("verdict", name(run.verdict), "converged");
+    figures.equal("verdict", name(run.verdict), "converged");
     const double outer[] = {.88209, .0157982319, .7005574376233291, .02508889984683773, .5566085813341031};
     TermSeries series(K, vector({1, 0}));
     double before = 0.0;
@@ -95,7 +95,7 @@ void hidden_slow(Figures& figures, std::uint64_t) {
     const double power = rows[20].term.power, ratio = rows[20].ratio;
     figures.near("true tail over the ratio's", 8.192646113853209e-05 / (power * ratio / (1 - ratio)), 25.11008731388987, 1e-8);
     const SeriesRun run = run_series(K, Le, {.tolerance = 1e-7, .norm = 0.99});
-    figures.said("verdict", name(run.verdict), "converged");
+    figures.equal("verdict", name(run.verdict), "converged");
     figures.near("L, loud room", run.sum[0], 2.0, 2e-7);
     figures.near("L, slow room", run.sum[1], 1e-4, 2e-7);
 }
@@ -104,26 +104,26 @@ void hidden_slow(Figures& figures, std::uint64_t) {
 // 0 at an unknown, and must not be called divergent because its first terms do not fall.
 void zeros(Figures& figures, std::uint64_t) {
     const SeriesRun round = run_series(carousel(0.9), vector({1, 0, 0}), {.tolerance = 1e-9, .norm = 0.9});
-    figures.said("period three: verdict", name(round.verdict), "converged");
+    figures.equal("period three: verdict", name(round.verdict), "converged");
     for (int k = 0; k < 3; ++k)
         figures.near(fmt::format("period three: L, mirror {}", k), round.sum[k], std::pow(0.9, k) / (1 - 0.729), 1e-8);
     constexpr int m = 20;
     DenseChannel::Matrix K = DenseChannel::Matrix::Zero(m + 1, m + 1);
     for (int u = 0; u < m; ++u) K(u + 1, u) = 1.0;
     const SeriesRun periscope = run_series(DenseChannel(K, Vector::Ones(m + 1)), Vector::Unit(m + 1, 0));
-    figures.said("periscope: verdict", name(periscope.verdict), "converged");
-    figures.said("periscope: why", periscope.why, "term 21 is 0, and so are all that follow");
+    figures.equal("periscope: verdict", name(periscope.verdict), "converged");
+    figures.equal("periscope: why", periscope.why, "term 21 is 0, and so are all that follow");
 }
 
 // ‖K‖∞ = 1.6 and 2: both must raise a warning, but only the second series diverges, because K^i Le = ρ (mean ρ)^(i−1).
 void norm_above_one(Figures& figures, std::uint64_t) {
     const SeriesRun run = run_series(sphere_halves(1.6, 0.2), Vector::Ones(2), {.tolerance = 1e-12, .norm = 1.6});
-    figures.said("albedos 1.6, 0.2: verdict", name(run.verdict), "converged");
+    figures.equal("albedos 1.6, 0.2: verdict", name(run.verdict), "converged");
     figures.near("warnings", static_cast<double>(run.warnings.size()), 1.0, 0.0);
     figures.near("L, bright half", run.sum[0], 17.0, 1e-10);
     figures.near("L, dark half", run.sum[1], 3.0, 1e-10);
     const SeriesRun above = run_series(sphere_halves(2.0, 0.2), Vector::Ones(2), {.norm = 2.0});
-    figures.said("albedos 2, 0.2: verdict", name(above.verdict), "diverging");
+    figures.equal("albedos 2, 0.2: verdict", name(above.verdict), "diverging");
     figures.near("rate", above.rate, 1.1, 1e-12);
 }
 
@@ -144,13 +144,13 @@ void add_divergent(Cases& cases) {
                              for (const NamedSolver& solver : solvers()) {
                                  const SolverResult result = solver.solve(problem);
                                  const bool claims = result.verdict == Verdict::converged;
-                                 figures.said(solver.name, claims ? "converged" : "not converged", "not converged");
+                                 figures.equal(solver.name, claims ? "converged" : "not converged", "not converged");
                              }
                              if (albedo == 1.0) return;
                              problem.Le = Vector::Ones(3);
                              for (const char* solver : {"aitken", "wynn", "vector-epsilon", "gmres", "bicgstab", "lu"}) {
                                  const SolverResult result = find_solver(solver)->solve(problem);
-                                 figures.said(fmt::format("{}: verdict", solver), name(result.verdict), "refused");
+                                 figures.equal(fmt::format("{}: verdict", solver), name(result.verdict), "refused");
                                  figures.near(fmt::format("{}: 1/(1 - albedo)", solver), result.x[0], -20.0, 1e-6);
                              }
                          }});
@@ -176,14 +176,14 @@ void extrapolation(Figures& figures, std::uint64_t) {
         figures.near(fmt::format("plain sum of {}", row.n), error(solve_neumann), row.plain, 1e-12);
         figures.near(fmt::format("Aitken, {}", row.n), error(solve_aitken), row.aitken, 1e-12);
         figures.near(fmt::format("Wynn, {}", row.n), error(solve_wynn_epsilon), 0.0, 1e-12);
-        figures.said(fmt::format("one ratio, {}", row.n), name(solve_ratio_tail(problem).verdict), "refused");
+        figures.equal(fmt::format("one ratio, {}", row.n), name(solve_ratio_tail(problem).verdict), "refused");
     }
     const DenseChannel round = carousel(0.9);
     problem.K = &round;
     problem.Le = vector({1, 0, 0});
     problem.most = 30;
-    figures.said("period three, Aitken", name(solve_aitken(problem).verdict), "broke down");
-    figures.said("period three, one ratio", name(solve_ratio_tail(problem).verdict), "refused");
+    figures.equal("period three, Aitken", name(solve_aitken(problem).verdict), "broke down");
+    figures.equal("period three, one ratio", name(solve_ratio_tail(problem).verdict), "refused");
 }
 
 }  // namespace

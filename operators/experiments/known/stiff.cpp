@@ -90,8 +90,8 @@ void by_sampling(Figures& figures, std::uint64_t seed, const Sampling& sampling,
 void by_pilot(Figures& figures, std::uint64_t seed, double rho) {
     const Scene scene = furnace_with_camera(rho);
     const Pilot pilot(scene, {}, seed);
-    figures.said("the series", pilot.converges() ? "converges" : "does not converge, or too slowly to tell",
-                 rho < 0.9999 ? "converges" : "does not converge, or too slowly to tell");
+    figures.equal("the series", pilot.converges() ? "converges" : "does not converge, or too slowly to tell",
+                  rho < 0.9999 ? "converges" : "does not converge, or too slowly to tell");
     // Walks have no variance here, except that of light sampling.
     figures.near("K^8 Le", pilot.term(8).mean, std::pow(rho, 8), z_limit * pilot.term(8).standard_error + 1e-12);
 }
@@ -110,7 +110,7 @@ void by_fields(Figures& figures, std::uint64_t seed, const Method& method, doubl
         figures.sampled(fmt::format("K^{} Le", i), mean_of(found, i), std::pow(rho, i),
                         // Pixels are floats.
                         1e-6);
-    figures.said("the rest", found.rest ? "converges" : "does not", rho < 1.0 ? "converges" : "does not");
+    figures.equal("the rest", found.rest ? "converges" : "does not", rho < 1.0 ? "converges" : "does not");
     if (rho < 1.0) {
         const double exact = rest_of(rho, 8);
         // Rows of T sum to 1 up to rounding, which 1/(1 − ρ) enlarges.
@@ -180,12 +180,12 @@ void chain_of_rooms(Figures& figures, std::uint64_t) {
     figures.at_least("brightest bounce", brightest, 5 * rooms);
     for (const double tolerance : {1e-2, 1e-6}) {
         const SeriesRun run = run_series(channel, problem.Le, {.tolerance = tolerance, .norm = rho});
-        figures.said(fmt::format("verdict, to {:g}", tolerance), name(run.verdict), "converged");
+        figures.equal(fmt::format("verdict, to {:g}", tolerance), name(run.verdict), "converged");
         figures.near(fmt::format("L in the first room, to {:g}", tolerance), run.sum[0] / exact[0], 1.0,
                      tolerance * exact.maxCoeff() / exact[0]);
     }
     const SeriesRun early = run_series(channel, problem.Le, {.tolerance = 1e-2, .most_bounces = 10, .norm = rho});
-    figures.said("verdict where it is still dark", name(early.verdict), "limit");
+    figures.equal("verdict where it is still dark", name(early.verdict), "limit");
     for (const NamedSolver& solver : solvers()) {
         problem.radius = rho;
         problem.tolerance = 1e-8;
@@ -257,7 +257,7 @@ void light_behind_a_door(Figures& figures, std::uint64_t seed) {
     const TracedSystem system(scene, {.patches = 2000, .rays = 64, .seed = seed});
     const TracedChannel K = system.channel(0);
     const SeriesRun run = run_series(K, system.emitted(0), {.tolerance = 1e-6, .norm = rho});
-    figures.said("matrix: verdict", name(run.verdict), "converged");
+    figures.equal("matrix: verdict", name(run.verdict), "converged");
     // A traced T conserves flux only approximately: 64 rays from each of 2000 patches.
     const double power = (1.0 - rho) * K.measure().dot(run.sum) / K.measure().dot(system.emitted(0));
     figures.near("matrix: absorbed/emitted", power, 1.0, 0.05);

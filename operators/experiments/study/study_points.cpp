@@ -8,7 +8,7 @@ namespace neumann {
 
 std::uint64_t StudyRun::all_rays() const { return std::accumulate(rays.begin(), rays.end(), std::uint64_t{0}); }
 
-StudyRun study_run(const BounceSeries& series, const Method& asked) {
+StudyRun study_run(const BounceSeries& series, const Method& requested) {
     const SeriesReport& report = series.report;
     StudyRun run;
     run.seed = series.seed;
@@ -20,7 +20,7 @@ StudyRun study_run(const BounceSeries& series, const Method& asked) {
                 run.directions = m.directions.value_or(0);
             }
         },
-        asked);
+        requested);
     run.setup_seconds = series.setup_seconds;
     run.seconds = series.seconds;
     for (const BounceReport& b : report.bounces) {

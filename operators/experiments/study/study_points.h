@@ -25,8 +25,8 @@ struct StudyRun {
     std::uint64_t all_rays() const;
 };
 
-// Describes a render of `asked`, the method with its effort; its place in the study and its memory are not set.
-StudyRun study_run(const BounceSeries& series, const Method& asked);
+// Describes a render of `requested`, the method with its effort; its place in the study and its memory are not set.
+StudyRun study_run(const BounceSeries& series, const Method& requested);
 
 // The method, budget and repeat of the n-th run. The outer loop is over repeats, so that other load on the machine affects all
 // methods and budgets alike, and an interrupted study has some runs of each.

@@ -41,13 +41,14 @@ struct Writer {
 
     void singular() const {
         each_channel([&](const UnbouncedChannel& channel, const char* name) {
-            const Conditioning& of = channel.conditioning;
-            if (of.is_singular())
+            const Conditioning& conditioning = channel.conditioning;
+            if (conditioning.is_singular())
                 add(Kind::singular,
                     fmt::format("{}: the smallest singular value {:.2g} is not above {} {:.2g}: pictures of several "
                                 "lights cannot be told apart; regularised with {:.2g}",
-                                name, of.smallest, of.noise > 0.0 ? "the noise" : "rounding",
-                                of.noise > 0.0 ? of.noise : 1e-12 * of.largest, channel.regularisation));
+                                name, conditioning.smallest, conditioning.noise > 0.0 ? "the noise" : "rounding",
+                                conditioning.noise > 0.0 ? conditioning.noise : 1e-12 * conditioning.largest,
+                                channel.regularisation));
         });
     }
 

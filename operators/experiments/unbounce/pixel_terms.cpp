@@ -53,12 +53,12 @@ public:
             const int r = found_.regions.of_pixel[p];
             if (r == Regions::none) continue;
             for (int c = 0; c < 3; ++c) {
-                const ChannelWeights& of = channels_[static_cast<std::size_t>(c)];
+                const ChannelWeights& weights = channels_[static_cast<std::size_t>(c)];
                 const double value = estimate.mean.pixels[p][c];
                 const double error = has_errors ? estimate.standard_error.pixels[p][c] : 0.0;
                 for (Eigen::Index n = 0; n < bounces(); ++n) {
                     const auto term = static_cast<std::size_t>(n);
-                    const double weight = is_direct ? of_direct(n) * of.y(j, n) : of_picture(of, j, r, n);
+                    const double weight = is_direct ? of_direct(n) * weights.y(j, n) : of_picture(weights, j, r, n);
                     terms_[term].pixels[p][c] += weight * value;
                     variances_[term].pixels[p][c] += weight * weight * error * error;
                 }
@@ -95,8 +95,8 @@ private:
     // The sign of T¹ y in a term: it is bounce 1, and is subtracted from later ones, where it would count twice.
     static double of_direct(Eigen::Index n) { return n == 0 ? 1.0 : -1.0; }
     // The weight of a pixel's value T_pj in term n.
-    double of_picture(const ChannelWeights& of, Eigen::Index j, Eigen::Index r, Eigen::Index n) const {
-        return (n == 0 ? 0.0 : of.y(j, n)) + (with_direct_ ? 0.0 : of_direct(n) * of.share(j, r) * of.y(r, n));
+    double of_picture(const ChannelWeights& weights, Eigen::Index j, Eigen::Index r, Eigen::Index n) const {
+        return (n == 0 ? 0.0 : weights.y(j, n)) + (with_direct_ ? 0.0 : of_direct(n) * weights.share(j, r) * weights.y(r, n));
     }
 
     const Unbounced& found_;

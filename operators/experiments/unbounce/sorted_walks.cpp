@@ -26,7 +26,8 @@ public:
     Sorter(const ProjectorLights& projector, std::size_t paths, std::vector<Find>& finds)
         : projector_(projector), finds_(finds), state_(paths) {}
 
-    void asks(std::uint32_t path, bool, int bounce, const SurfacePoint& x, const Vec3&, const SurfacePoint&, bool) const {
+    void casts_shadow_ray(std::uint32_t path, bool, int bounce, const SurfacePoint& x, const Vec3&, const SurfacePoint&,
+                          bool) const {
         state_[path].at = x.position;
         state_[path].bounce = bounce;
     }

@@ -20,15 +20,15 @@ constexpr double black = 1e-9;
 
 // Rows and columns of the chosen lights.
 ChannelPictures chosen(const ChannelPictures& all, const std::vector<int>& lights) {
-    const auto of = [&](const MatrixXd& matrix) -> MatrixXd {
+    const auto submatrix = [&](const MatrixXd& matrix) -> MatrixXd {
         return matrix.size() == 0 ? MatrixXd() : MatrixXd(matrix(lights, lights));
     };
     const auto part = [&](const VectorXd& vector) -> VectorXd {
         return vector.size() == 0 ? VectorXd() : VectorXd(vector(lights));
     };
-    ChannelPictures some{of(all.T),         of(all.T_variance),        of(all.direct), of(all.direct_variance),
+    ChannelPictures some{submatrix(all.T),  submatrix(all.T_variance), submatrix(all.direct), submatrix(all.direct_variance),
                          part(all.picture), part(all.picture_variance)};
-    for (const auto& [T, direct] : all.parts) some.parts.push_back({of(T), part(direct)});
+    for (const auto& [T, direct] : all.parts) some.parts.push_back({submatrix(T), part(direct)});
     return some;
 }
 
@@ -68,7 +68,7 @@ private:
     std::uint64_t index_ = 0;
 };
 
-struct Answer {
+struct Solution {
     Cancellation operators;
     UnbouncedRegions regions;
     MatrixXd once_more;
@@ -81,8 +81,8 @@ struct Answer {
     }
 };
 
-Answer answer(const ChannelPictures& pictures, double alpha, int bounces) {
-    Answer result;
+Solution solution(const ChannelPictures& pictures, double alpha, int bounces) {
+    Solution result;
     result.operators.T = pictures.T;
     result.operators.inverse = TransportInverse(pictures.T).at(alpha);
     result.operators.direct = pictures.direct.size() > 0 ? pictures.direct : direct_light(pictures.T, result.operators.inverse);
@@ -121,7 +121,7 @@ void add_errors(const ChannelPictures& pictures, const VectorXd& shares, int bou
             other.disturb(noisy);
         }
         noisy.picture = other(pictures.picture, pictures.picture_variance);
-        const Answer found = answer(noisy, result.regularisation, bounces);
+        const Solution found = solution(noisy, result.regularisation, bounces);
         terms.add(found.terms());
         once_more.add(found.once_more);
         given_on.add(found.given_on);
@@ -163,7 +163,7 @@ UnbouncedChannel unbounce_channel(const ChannelPictures& all, const VectorXd& al
     result.regularisation = regularisation ? *regularisation : chosen_regularisation(pictures, inverse, result.conditioning);
     result.series_radius = inverse_series_radius(pictures.T);
 
-    Answer found = answer(pictures, result.regularisation, bounces);
+    Solution found = solution(pictures, result.regularisation, bounces);
     const auto exact = [](const MatrixXd& value) { return WithErrors{value, MatrixXd::Zero(value.rows(), value.cols())}; };
     result.terms = exact(found.terms());
     result.once_more = exact(found.once_more);

@@ -7,12 +7,12 @@ namespace neumann {
 
 // The results of the paths of a part.
 struct LinkShares {
-    struct Share {
+    struct Contribution {
         std::uint32_t unknown;
         std::size_t bounce;
         Rgb radiance;
     };
-    std::vector<Share> shares;
+    std::vector<Contribution> shares;
     std::vector<PowerOfTerm> power;
     std::uint64_t rays = 0;
 
@@ -22,7 +22,7 @@ struct LinkShares {
         to.number(rays);
     }
     static LinkShares unpacked(UnpackedNumbers& from) {
-        return {from.numbers<Share>(), from.numbers<PowerOfTerm>(), from.number<std::uint64_t>()};
+        return {from.numbers<Contribution>(), from.numbers<PowerOfTerm>(), from.number<std::uint64_t>()};
     }
 };
 
@@ -114,7 +114,7 @@ ArrivingByLinks<C> arriving_by_links(const Scene& scene, const RowShare& rows, d
     light.for_parts([&](std::size_t part) { return trace(light, part, space, bounces); },
                     [&](const LinkShares& found) {
                         result.rays += found.rays;
-                        for (const LinkShares::Share& s : found.shares)
+                        for (const LinkShares::Contribution& s : found.shares)
                             result.radiance[s.bounce].col(s.unknown) += to_channels<C>(s.radiance);
                         for (std::size_t k = 0; k < result.power.size(); ++k) result.power[k] += found.power[k];
                     },

@@ -61,7 +61,7 @@ public:
             const std::size_t own = shares ? rows->rank() : 0;
             oneapi::tbb::parallel_for(cut[own], cut[own + 1], [&](std::size_t i) { found[i] = trace(begin + i); });
             if constexpr (requires(PackedNumbers & numbers) { found[0].pack(numbers); })
-                if (shares) tell_all(*rows, std::span(found).first(n));
+                if (shares) exchange_results(*rows, std::span(found).first(n));
             for (std::size_t i = 0; i < n; ++i) add(found[i]);
         }
     }

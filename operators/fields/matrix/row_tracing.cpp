@@ -49,11 +49,11 @@ std::vector<std::uint32_t> rows_to_trace(const RowsToTrace& rows, KeptRows* kept
         const auto& facets = rows.space.facets();
         std::vector<std::uint32_t> place(facets.size(), none);  // by facet
         for (std::size_t i = 0; i < rows.facets.size(); ++i) place[rows.facets[i]] = static_cast<std::uint32_t>(i);
-        kept->read([&](std::span<const std::uint32_t> of, std::span<const std::uint32_t> from) {
+        kept->read([&](std::span<const std::uint32_t> kept_facets, std::span<const std::uint32_t> from) {
             std::size_t size = 0;
-            for (const std::uint32_t f : of) size += f < facets.size() ? rays_of(facets[f], rows.rays) : from.size() + 1;
+            for (const std::uint32_t f : kept_facets) size += f < facets.size() ? rays_of(facets[f], rows.rays) : from.size() + 1;
             if (size != from.size() || std::ranges::any_of(from, [&](auto u) { return u > rows.space.nothing(); })) return false;
-            for (const std::uint32_t f : of) {
+            for (const std::uint32_t f : kept_facets) {
                 const std::uint32_t n = rays_of(facets[f], rows.rays);
                 if (place[f] != none) {
                     std::copy_n(from.begin(), n, seen + rows.first_ray[place[f]]);

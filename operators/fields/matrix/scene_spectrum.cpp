@@ -44,7 +44,7 @@ private:
 };
 
 ChannelSpectrum channel_spectrum(const MatrixSystem& system, int c, const SpectrumLimits& wanted, const EigenLimits& limits,
-                                 const Watch& watch, std::vector<std::string>& told) {
+                                 const Watch& watch, std::vector<std::string>& messages) {
     const std::unique_ptr<ChannelOperator> K = system.reflected(c);
     ChannelSpectrum s;
     s.name = system.channel_name(c);
@@ -52,7 +52,7 @@ ChannelSpectrum channel_spectrum(const MatrixSystem& system, int c, const Spectr
     s.norms = system.norms(*K, limits);
     s.one = system.error_of_power(c, s.norms.one_at);
     s.leading = system.leading(*K, wanted.eigenvalues, limits);
-    if (wanted.petsc) s.by_slepc = slepc_eigenpairs(*K, wanted.eigenvalues, *wanted.petsc, limits, &told);
+    if (wanted.petsc) s.by_slepc = slepc_eigenpairs(*K, wanted.eigenvalues, *wanted.petsc, limits, &messages);
     s.radius = s.leading.radius();
     if (!std::isfinite(s.radius)) {
         s.bounds = radius_bounds(*K, most_for_bounds, watch);
@@ -117,9 +117,9 @@ SceneSpectrum scene_spectrum(const MatrixSystem& system, const SpectrumLimits& l
         if (!s.leading.converged) found.warnings.push_back(fmt::format("{}: eigenvalues were {}", s.name, s.leading.why));
     }
     for (RefinementRow& row : found.coarser) {
-        std::vector<std::vector<std::complex<double>>> asked;
-        for (const int c : channels) asked.push_back(std::move(row.leading[static_cast<std::size_t>(c)]));
-        row.leading = std::move(asked);
+        std::vector<std::vector<std::complex<double>>> chosen;
+        for (const int c : channels) chosen.push_back(std::move(row.leading[static_cast<std::size_t>(c)]));
+        row.leading = std::move(chosen);
     }
     if (has_glass(system.space())) found.warnings.push_back(trapped_light);
     if (watch.stop())

@@ -16,7 +16,7 @@ namespace neumann {
 // processes have all results. All processes must call it together. Results have pack(PackedNumbers&), and a static
 // unpacked(UnpackedNumbers&) that is its inverse.
 template <class Found>
-void tell_all(const RowShare& rows, std::span<Found> found) {
+void exchange_results(const RowShare& rows, std::span<Found> found) {
     const std::vector<std::size_t> cut = rows.cut(found.size());
     PackedNumbers packed;
     for (std::size_t i = cut[rows.rank()]; i < cut[rows.rank() + 1]; ++i) found[i].pack(packed);

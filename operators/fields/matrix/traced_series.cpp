@@ -67,21 +67,22 @@ template <int C, class Series>
 SeriesRest<C> rest_after(const Series& series, const ExitantVector<C>* light) {
     const auto K = [&](const ExitantVector<C>& f) { return series.apply(f); };
     if (!series.has_links() && !light) return rest_of_series<C>(K, series.term());
-    const ExitantVector<C> begun = series.begun(light);
-    SeriesRest<C> rest = rest_of_series<C>(K, begun);
-    rest.sum = std::move(rest.sum) + begun;
+    const ExitantVector<C> source = series.rest_source(light);
+    SeriesRest<C> rest = rest_of_series<C>(K, source);
+    rest.sum = std::move(rest.sum) + source;
     return rest;
 }
 
 // The light that is given to bounces in addition to what T carries: b = K Le in bounce 1, and light that comes by links
 // (link_light.h) in later ones. The last entry is for all bounces beyond N. Empty if T carries all light.
 template <int C>
-using Given = std::vector<ExitantVector<C>>;
+using Sources = std::vector<ExitantVector<C>>;
 
 // Le, K Le, K² Le, … and the rest; calls look(k, term) for each term.
 template <int C, class Product, class Look>
-TracedSeries series_of(const Product& product, int links, const ExitantVector<C>& Le, const Given<C>& given, const RowShare& rows,
-                       const PatchSpace& coarser, const TracedSeriesSettings& settings, const Watch& watch, const Look& look) {
+TracedSeries series_of(const Product& product, int links, const ExitantVector<C>& Le, const Sources<C>& sources,
+                       const RowShare& rows, const PatchSpace& coarser, const TracedSeriesSettings& settings, const Watch& watch,
+                       const Look& look) {
     const PatchSpace& space = rows.space();
     const std::vector<std::uint32_t> around = space.coarser_of_each(coarser);
     const CoarseMeans<C> M(space, coarser, around);
@@ -92,14 +93,14 @@ TracedSeries series_of(const Product& product, int links, const ExitantVector<C>
     };
     const int N = settings.bounces;
     TracedSeries series{FieldStack(space, N), FieldStack(coarser, N)};
-    if (given.size() > 2) {
+    if (sources.size() > 2) {
         series.fine_by_links.emplace(space, N);
         series.coarse_by_links.emplace(coarser, N);
     }
     const auto same = [](ExitantVector<C> f) { return f; };
     // The light given to bounce i by links, without b.
     const auto by_links = [&](int i) -> const ExitantVector<C>* {
-        return i > 1 && given.size() > 2 ? &given[static_cast<std::size_t>(i)] : nullptr;
+        return i > 1 && sources.size() > 2 ? &sources[static_cast<std::size_t>(i)] : nullptr;
     };
     const auto coarse_by_links = [&](int i) {
         const ExitantVector<C>* light = by_links(i);
@@ -111,13 +112,13 @@ TracedSeries series_of(const Product& product, int links, const ExitantVector<C>
     };
     const auto pointer = [](const auto& optional) { return optional ? &*optional : nullptr; };
 
-    const int first = given.empty() ? 0 : 1;
+    const int first = sources.empty() ? 0 : 1;
     if (first == 1) {
         series.fine.set<C>(0, Le);
         series.coarse.set<C>(0, M(Le));
         look(0, Le);
     }
-    const ExitantVector<C>& begin = first == 1 ? given[1] : Le;
+    const ExitantVector<C>& begin = first == 1 ? sources[1] : Le;
     LinkedSeries terms(K, same, same, links, begin);
     LinkedSeries coarse_terms(K, P, M, links, M(begin));
     for (int i = first; i <= N; ++i) {
@@ -177,7 +178,7 @@ TracedSeries trace_light(const Scene& scene, const RowShare& rows, const PatchSp
     const ExitantVector<C> Le = emitted_light<C>(scene, space);
     std::vector<PowerOfTerm> power(static_cast<std::size_t>(settings.bounces) + 1);
     std::uint64_t light_rays = 0, link_rays = 0;
-    Given<C> given;
+    Sources<C> sources;
     // If lights have no unknowns, only the power that arrives from them is known.
     const bool from_elsewhere = scene.emitters.has_environment() || scene.emitters.has_delta_lights() ||
                                 (settings.glossy == Glossy::by_rays && has_glossy_lights(scene));
@@ -188,13 +189,13 @@ TracedSeries trace_light(const Scene& scene, const RowShare& rows, const PatchSp
         IncidentVector<C> arriving = arriving_light<C>(scene, R, settings.light_samples, settings.seed, rows.facets());
         rows.complete(arriving);
         light_rays = std::uint64_t{settings.light_samples} * space.facets().size();
-        given.resize(2, ExitantVector<C>::zero(0));
+        sources.resize(2, ExitantVector<C>::zero(0));
         if (settings.glossy == Glossy::by_rays) {
             ArrivingByLinks<C> by_links =
                 arriving_by_links<C>(scene, rows, rays_of_links(space, settings.rays), settings.seed, settings.bounces, watch);
             for (std::size_t k = 2; k < by_links.radiance.size(); ++k) {
                 arrives(k, by_links.radiance[k]);
-                given.push_back(R(std::move(by_links.radiance[k])));
+                sources.push_back(R(std::move(by_links.radiance[k])));
             }
             if (settings.bounces == 0) arriving = std::move(arriving) + by_links.radiance[1];
             // All processes have found the same power, so only the first adds it.
@@ -202,7 +203,7 @@ TracedSeries trace_light(const Scene& scene, const RowShare& rows, const PatchSp
             link_rays = by_links.rays;
         }
         arrives(1, arriving);
-        given[1] = R(std::move(arriving));
+        sources[1] = R(std::move(arriving));
         power[0].emitted = power[0].caught;
     }
     const auto product = [&](const auto& field) {
@@ -212,7 +213,7 @@ TracedSeries trace_light(const Scene& scene, const RowShare& rows, const PatchSp
         return R(std::move(means));
     };
     TracedSeries series =
-        series_of<C>(product, longest_chain, Le, given, rows, coarser, settings, watch, [&](int k, const ExitantVector<C>& term) {
+        series_of<C>(product, longest_chain, Le, sources, rows, coarser, settings, watch, [&](int k, const ExitantVector<C>& term) {
             if (k > 0 || !from_elsewhere) balance.add(static_cast<std::size_t>(k), term, power);
         });
     add_up(rows, power);

@@ -74,11 +74,11 @@ Vec2 square_of_triangle(const Vec2& weights) {
 }
 
 // The numbers of the first item and of the first cluster.
-struct Place {
+struct Offsets {
     std::size_t item, cluster;
 };
 // Orders the items, and sets `begin` to the first item of each of n clusters.
-void order(std::span<Item> items, std::size_t n, Place first, std::vector<std::size_t>& begin) {
+void order(std::span<Item> items, std::size_t n, Offsets first, std::vector<std::size_t>& begin) {
     if (n == 1) begin[first.cluster] = first.item;
     if (n <= 1 && items.size() <= ordered_to) return;
     const Split at = split(items);
@@ -154,7 +154,7 @@ SurfacePoint FaceClusters::bare_point(const Geometry& geometry, std::uint32_t sh
     const auto after = std::upper_bound(place_.begin(), place_.end() - 1, st.x);
     const auto i = static_cast<std::size_t>(after - place_.begin()) - 1;
     const double s = (st.x - place_[i]) / (place_[i + 1] - place_[i]);
-    return geometry.bare_point(geometry.place(shape, faces_[i]), {std::clamp(s, 0.0, 1.0), st.y});
+    return geometry.bare_point(geometry.primitive_ref(shape, faces_[i]), {std::clamp(s, 0.0, 1.0), st.y});
 }
 
 std::span<const std::uint32_t> FaceClusters::faces(double from, double to) const {

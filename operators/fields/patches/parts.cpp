@@ -41,12 +41,12 @@ Parts find_parts(const Geometry& geometry, const Chart& chart, const Footprints&
     if (!bands && !footprints.divides(cell))
         return {{footprints.region({0.5 * (cell.s0 + cell.s1), 0.5 * (cell.t0 + cell.t1)}, middle), Part()}};
     const std::uint32_t along = bands ? squares_along_with_bands : squares_along;
-    struct Corner {
+    struct GridPoint {
         Vec2 st;
         Vec3 position;
         Region region;
     };
-    std::vector<Corner> corners;
+    std::vector<GridPoint> corners;
     for (std::uint32_t y = 0; y <= along; ++y)
         for (std::uint32_t x = 0; x <= along; ++x) {
             const Vec2 st = chart.uniform(cell, Vec2(x, y) / double(along));
@@ -57,7 +57,7 @@ Parts find_parts(const Geometry& geometry, const Chart& chart, const Footprints&
     Parts parts;
     for (std::uint32_t y = 0; y < along; ++y)
         for (std::uint32_t x = 0; x < along; ++x) {
-            const Corner *low = &corners[y * (along + 1) + x], *high = low + along + 1;
+            const GridPoint *low = &corners[y * (along + 1) + x], *high = low + along + 1;
             const auto region = [&](double u, double v) {
                 const double w[4] = {(1.0 - u) * (1.0 - v), u * (1.0 - v), (1.0 - u) * v, u * v};
                 return footprints.region(

@@ -49,7 +49,7 @@ PatchSpace::PatchSpace(Patches patches, std::vector<SideDirections> sides)
     }
 }
 
-PatchSpace::Reading PatchSpace::read(const SurfacePoint& p, const Patches::Place& place, const Vec3& w) const {
+PatchSpace::Reading PatchSpace::read(const SurfacePoint& p, const Patches::ChartPosition& place, const Vec3& w) const {
     const bool front = is_front(p, w);
     Reading reading{{nothing(), nothing(), nothing(), nothing()}, {}};
     if (sides_[p.shape].of(front) == 0) return reading;

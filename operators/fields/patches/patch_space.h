@@ -86,7 +86,7 @@ public:
         std::array<double, 4> weight;
     };
     Reading read(const SurfacePoint& p, const Vec3& w) const { return read(p, patches_.place(p), w); }
-    Reading read(const SurfacePoint& p, const Patches::Place& place, const Vec3& w) const;
+    Reading read(const SurfacePoint& p, const Patches::ChartPosition& place, const Vec3& w) const;
 
 private:
     PatchSpace(Patches patches, std::vector<SideDirections> sides);

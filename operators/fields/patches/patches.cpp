@@ -271,7 +271,7 @@ std::vector<std::array<Vec3, 4>> Patches::quadrilaterals(std::uint32_t number) c
     return found;
 }
 
-Patches::Reading Patches::interpolate(const Place& p) const {
+Patches::Reading Patches::interpolate(const ChartPosition& p) const {
     if (charts()[p.chart].clusters()) {
         const std::uint32_t own = locate(p);
         return {{own, own, own, own}, {1.0, 0.0, 0.0, 0.0}};

@@ -42,22 +42,22 @@ public:
     std::uint32_t cells_along(std::uint32_t chart) const;
 
     // The place of a point on its chart, which is the same for coarser patches.
-    struct Place {
+    struct ChartPosition {
         std::uint32_t chart;
         Vec2 st;
         Region region;
     };
     // The place of a position on a chart that is not of clusters.
-    Place place(std::uint32_t chart, const Vec3& position) const {
+    ChartPosition place(std::uint32_t chart, const Vec3& position) const {
         const Vec2 st = charts()[chart].coordinates(*geometry_, position);
         return {chart, st, footprints_[chart].empty() ? Region() : footprints_[chart].region(st, position)};
     }
-    Place place(const SurfacePoint& p) const {
+    ChartPosition place(const SurfacePoint& p) const {
         const std::uint32_t chart = chart_of(p);
         if (charts()[chart].clusters()) return {chart, charts()[chart].coordinates(*geometry_, p), Region()};
         return place(chart, p.position);
     }
-    std::uint32_t locate(const Place& p) const {
+    std::uint32_t locate(const ChartPosition& p) const {
         return locate(p.chart, p.st, [&] { return p.region; });
     }
     std::uint32_t locate(const SurfacePoint& p) const {
@@ -91,7 +91,7 @@ public:
         std::array<std::uint32_t, 4> patch;
         std::array<double, 4> weight;
     };
-    Reading interpolate(const Place& p) const;
+    Reading interpolate(const ChartPosition& p) const;
     Reading interpolate(const SurfacePoint& p) const { return interpolate(place(p)); }
 
     const Geometry& geometry() const { return *geometry_; }

@@ -61,13 +61,13 @@ void SharedRays::find_slots(const std::vector<std::uint32_t>& number, const std:
         for (std::size_t i = range.begin(); i < range.end(); ++i) rays[i] = slot[rays[i]];
     });
 
-    const Processes::Counts asked = processes_->counts(wanted);
+    const Processes::Counts requests = processes_->counts(wanted);
     std::size_t size = 0;
-    for (const int n : asked.taken) size += static_cast<std::size_t>(n);
+    for (const int n : requests.taken) size += static_cast<std::size_t>(n);
     given_.resize(size);
-    processes_->exchange(others_, given_, asked);
+    processes_->exchange(others_, given_, requests);
     for (std::uint32_t& u : given_) u -= first_;
-    counts_ = {asked.taken, asked.given};
+    counts_ = {requests.taken, requests.given};
     at_slots_ = make_large_array<double>(slots());
 }
 

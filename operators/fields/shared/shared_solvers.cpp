@@ -24,7 +24,7 @@ void find_reference(Problem problem, SideBySide& all) {
 }  // namespace
 
 SideBySide solve_shared(const Problem& problem, const std::vector<std::string>& petsc, bool histories, const Watch& watch,
-                        std::vector<std::string>& told) {
+                        std::vector<std::string>& messages) {
     SideBySide all;
     const StoppableChannel K(*problem.K, watch);
     const Agreement& agreement = K.agreement();
@@ -44,7 +44,7 @@ SideBySide solve_shared(const Problem& problem, const std::vector<std::string>& 
     } catch (const Stopped&) {
         all.interrupted = true;
     }
-    told = add_petsc_rows(problem, petsc, histories, watch, all);
+    messages = add_petsc_rows(problem, petsc, histories, watch, all);
     return all;
 }
 

@@ -44,8 +44,8 @@ public:
           emission_(scene.geometry, scene.emitters),
           lights_(scene.geometry, scene.emitters, settings.direct.lights, settings.direct.place) {}
 
-    // Traces a path for each ray; `camera` and `light` give the random numbers of its subpaths. Calls found(i, Found)
-    // for contributions of path i to its own pixel, and splatted(i, position, Found) for contributions of its light
+    // Traces a path for each ray; `camera` and `light` give the random numbers of its subpaths. Calls found(i, WayContribution)
+    // for contributions of path i to its own pixel, and splatted(i, position, WayContribution) for contributions of its light
     // subpath at a position on the film, times the number of pixels. Adds the numbers of rays to `counts`, which has
     // N + 2 entries. `ways` tells which ways are made (made_ways.h); the random numbers that a way takes do not depend
     // on which others are made. Returns the number of walks given up.
@@ -108,7 +108,7 @@ void Bidirectional::trace_light_half(const Transport& T, std::span<LightRandom> 
             T, work.light, work.camera_edges, j,
             [&](std::size_t k) {
                 const CameraEdge& edge = work.camera_edges[k];
-                splatted(edge.walker, edge.position, Found{j, j + 1, edge.value, work.camera_weights[k]});
+                splatted(edge.walker, edge.position, WayContribution{j, j + 1, edge.value, work.camera_weights[k]});
             },
             observer);
         end_where_made(j + 1);
@@ -134,7 +134,7 @@ std::uint64_t Bidirectional::trace_camera_half(const Transport& T, std::span<con
     const auto arrive_first = [&](CameraWalker& z, std::uint32_t i) {
         ++counts[0];
         z.wo = -z.w;
-        if (ways.makes(i, 0, 2)) found(i, Found{0, 0, emitters.emitted(z.x, z.wo), 1.0});
+        if (ways.makes(i, 0, 2)) found(i, WayContribution{0, 0, emitters.emitted(z.x, z.wo), 1.0});
         if (z.x.is_infinite()) return false;
         const double density = scene_->camera.pixels_per_area(rays[i], z.x.position) * std::abs(glm::dot(z.x.normal, z.wo));
         z.weights = {.last = counted(h, pixels_ / density)};
@@ -156,7 +156,7 @@ std::uint64_t Bidirectional::trace_camera_half(const Transport& T, std::span<con
             const bool rest = ending.in_rest(bounce), splits = bounce == 1;
 
             // R makes the edges to the light subpath, and T finds which of them are visible.
-            const int questions = lights_.empty() ? 0 : !splits ? 1 : copy == 0 ? split.lights : 0;
+            const int light_samples = lights_.empty() ? 0 : !splits ? 1 : copy == 0 ? split.lights : 0;
             work.edges.clear();
             walkers.keep_if([&](CameraWalker& z, std::uint32_t i) {
                 const SurfaceSide side = materials.side(z.x, z.wo);
@@ -165,11 +165,11 @@ std::uint64_t Bidirectional::trace_camera_half(const Transport& T, std::span<con
                     edge.found.value *= part;
                     if (!is_black(edge.found.value)) work.edges.push_back({i, edge});
                 };
-                for (int question = 0; question < questions; ++question) {
+                for (int light_sample = 0; light_sample < light_samples; ++light_sample) {
                     const Vec2 u = samplers[i].next2();
                     if (ways.makes(i, 1, bounce + 1))
                         take(edge_to_light(*scene_, emission_, lights_, h, z, side, bounce, rest, u),
-                             splits ? 1.0 / questions : share);
+                             splits ? 1.0 / light_samples : share);
                 }
                 if (splits && copy > 0) return true;
                 const std::vector<LightVertex>& light_path = work.light_path[i];
@@ -179,7 +179,7 @@ std::uint64_t Bidirectional::trace_camera_half(const Transport& T, std::span<con
                              splits ? 1.0 : share);
                 return true;
             });
-            ask_visibility(
+            test_visibility(
                 T, work.edges.size(), RayCaster::Rays::any,
                 [&](std::size_t k) {
                     const auto& [i, edge] = work.edges[k];
@@ -189,7 +189,7 @@ std::uint64_t Bidirectional::trace_camera_half(const Transport& T, std::span<con
                     const auto& [i, edge] = work.edges[k];
                     const SurfacePoint& x = walkers.walker[i].x;
                     ++count(edge.found.bounce);
-                    observer.asks(i, false, bounce, x, edge.y.position - x.position, edge.y, seen);
+                    observer.casts_shadow_ray(i, false, bounce, x, edge.y.position - x.position, edge.y, seen);
                     if (seen) found(i, edge.found);
                 });
 
@@ -222,7 +222,7 @@ std::uint64_t Bidirectional::trace_camera_half(const Transport& T, std::span<con
                     if (!is_black(emitted)) {
                         double others = counted(h, lights_.pdf(z.from, z.w, z.x)) * z.weights.last;
                         if (!rest) others += counted(h, emission_.density(z.x, z.w)) * z.weights.before;
-                        found(i, Found{bounce, 0, z.beta * emitted * share, 1.0 / (1.0 + others)});
+                        found(i, WayContribution{bounce, 0, z.beta * emitted * share, 1.0 / (1.0 + others)});
                     }
                 }
                 if (z.x.is_infinite()) return false;

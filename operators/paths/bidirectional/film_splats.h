@@ -85,14 +85,14 @@ CameraEdge emission_edge(const Scene& scene, std::uint32_t walker, const Emissio
 template <class Transport, class OnSplat, class Observer>
 void splat_what_is_seen(const Transport& T, const LightWalkers& walkers, const std::vector<CameraEdge>& edges, int j,
                         const OnSplat& splatted, const Observer& observer) {
-    ask_visibility(
+    test_visibility(
         T, edges.size(), RayCaster::Rays::any,
         [&](std::size_t k) {
             return std::pair<const SurfacePoint&, const SurfacePoint&>(walkers.walker[edges[k].walker].x, edges[k].lens);
         },
         [&](std::size_t k, bool seen) {
             const CameraEdge& edge = edges[k];
-            observer.asks(edge.walker, true, j, walkers.walker[edge.walker].x, edge.w, edge.lens, seen);
+            observer.casts_shadow_ray(edge.walker, true, j, walkers.walker[edge.walker].x, edge.w, edge.lens, seen);
             if (seen) splatted(k);
         });
 }

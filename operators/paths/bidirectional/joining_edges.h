@@ -3,12 +3,12 @@
 #pragma once
 
 #include "operators/paths/bidirectional/light_walk.h"
-#include "operators/paths/walk/ask_light.h"
+#include "operators/paths/walk/shadow_rays.h"
 
 namespace neumann {
 
 // A contribution of way (s, t), t = bounce + 2 − s.
-struct Found {
+struct WayContribution {
     int bounce = 0, s = 0;
     Rgb value{0.0};  // without the MIS weight
     double weight = 0.0;
@@ -24,7 +24,7 @@ struct CameraWalker : PathEnd {
 
 struct JoiningEdge {
     SurfacePoint y;
-    Found found;
+    WayContribution found;
 };
 
 // The edge of way (1, t): z samples the lights. `rest` means that the bounce is beyond N, where ways with s ≥ 2 are not used.
@@ -36,12 +36,12 @@ inline JoiningEdge edge_to_light(const Scene& scene, const EmissionSampler& emis
     const Rgb value = reflected_light(z.beta, side, wo, wi, light.weight) * std::abs(wi.z);
     if (is_black(value)) return {};
     const bool delta = light.pdf == delta_pdf;
-    const double asked = delta ? light.probability : light.pdf;
-    double others = delta ? 0.0 : counted(h, pdf(*side.bsdf, side.p, wo, wi) / asked);
+    const double pdf_of_sample = delta ? light.probability : light.pdf;
+    double others = delta ? 0.0 : counted(h, pdf(*side.bsdf, side.p, wo, wi) / pdf_of_sample);
     if (!rest) {
         const double density =
             delta ? emission.density_of_delta(light.distant, z.x.position, light.w) : emission.density(light.point, light.w);
-        others += z.weights.sum(h, density * std::abs(glm::dot(z.x.normal, light.w)) / asked,
+        others += z.weights.sum(h, density * std::abs(glm::dot(z.x.normal, light.w)) / pdf_of_sample,
                                 light_pdf(scene.materials, z.x, light.w, z.wo));
     }
     const double weight = 1.0 / (1.0 + others);

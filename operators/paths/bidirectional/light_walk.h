@@ -45,9 +45,9 @@ inline PathWeights weights_at_first(Heuristic h, const LightSampler& lights, con
                                     double cosine) {
     const Emission& e = w.emission;
     const double density = (e.is_point ? e.density / distance2 : e.density) * cosine;
-    const double asked =
+    const double pdf_of_sample =
         e.is_delta ? lights.probability_of_distant(e.distant, w.x.position) : lights.pdf(w.x.position, w.wi, w.from);
-    return {.last = counted(h, asked / density), .before = e.is_delta ? 0.0 : counted(h, 1.0 / density)};
+    return {.last = counted(h, pdf_of_sample / density), .before = e.is_delta ? 0.0 : counted(h, 1.0 / density)};
 }
 
 // Traces a path for each sampler; the paths advance together. `weights` is the heuristic of LightVertex::weights, if

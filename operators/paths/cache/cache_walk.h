@@ -1,6 +1,6 @@
 // Walks that end where an irradiance cache is read: those from the camera, and the rays of the records themselves. A
 // walk goes on from surfaces that are not diffuse, and from diffuse surfaces where no record stands nearby. At the
-// first vertex x where one does, it takes light samples as other walks do (ask_light.h) and reads
+// first vertex x where one does, it takes light samples as other walks do (shadow_rays.h) and reads
 //
 //     K^{k+1} Le (x, ωo) = ρ(x)/π E_k(x),   E_k = ∫ (T K^k Le) cosθ dω,   k ≥ 1
 //

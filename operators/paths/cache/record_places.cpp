@@ -51,7 +51,7 @@ constexpr double bytes_of_ray = 96.0;
 }  // namespace
 
 // A vertex on a diffuse side.
-struct RecordPlaces::Seen {
+struct RecordPlaces::Vertex {
     SurfacePoint x;
     Frame frame{Vec3(0.0, 0.0, 1.0)};
 };
@@ -70,13 +70,13 @@ public:
           points_(std::bit_ceil(static_cast<std::uint32_t>(places.cells_.size()))) {}
 
     void place_seen() {
-        std::vector<Seen> seen = camera_vertices();
+        std::vector<Vertex> seen = camera_vertices();
         if (seen.empty()) {
             if (scene_.emitters.empty()) return;
             throw InputError("cache keeps records on diffuse surfaces, and paths from the camera meet none; take walk");
         }
         std::vector<Vec3> positions;
-        for (const Seen& vertex : seen) positions.push_back(vertex.x.position);
+        for (const Vertex& vertex : seen) positions.push_back(vertex.x.position);
         const double extent = median_distance(positions), size = scene_.geometry.radius();
         extent_ = extent > smallest_extent * size ? extent : size;
         places_.disk_ = disk_part * extent_;
@@ -89,7 +89,7 @@ public:
     // Covers the vertices that the records see, and those seen from there.
     void place_unseen() {
         while (!ahead_.empty()) {
-            std::vector<Seen> some(std::move(ahead_));
+            std::vector<Vertex> some(std::move(ahead_));
             ahead_.clear();
             for (std::size_t first = 0; first < some.size(); first += vertices_at_once)
                 cover({some.begin() + static_cast<std::ptrdiff_t>(first),
@@ -102,7 +102,7 @@ private:
     struct Work {
         PlainWalkers walkers;
         std::vector<Sampler> samplers;
-        std::vector<Near> near;
+        std::vector<NearRecord> near;
         std::vector<Rgb> radiance;
         std::vector<double> grey, inverse_distances;
         std::vector<Vec2> translation;
@@ -112,18 +112,18 @@ private:
     struct Proposal {
         double radius = 0.0;
         Index::Reach reach{};
-        std::vector<Seen> sees;
+        std::vector<Vertex> sees;
     };
 
     // The first diffuse vertices of paths from the camera.
-    std::vector<Seen> camera_vertices() {
+    std::vector<Vertex> camera_vertices() {
         const Film& film = scene_.film;
         const std::uint64_t wanted = std::uint64_t{paths_a_pixel} * static_cast<std::uint64_t>(film.crop_width) *
                                      static_cast<std::uint64_t>(film.crop_height);
         const std::uint32_t count =
             std::bit_floor(static_cast<std::uint32_t>(std::clamp<std::uint64_t>(wanted, fewest_camera_paths, most_camera_paths)));
         const SobolPoints net(count);
-        std::vector<std::optional<Seen>> found(count);
+        std::vector<std::optional<Vertex>> found(count);
         oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::uint32_t>(0, count, 256), [&](const auto& range) {
             if (watch_.stop()) return;
             for (std::uint32_t k = range.begin(); k < range.end(); ++k) {
@@ -136,12 +136,12 @@ private:
             }
         });
         if (watch_.stop()) throw Stopped();
-        std::vector<Seen> all;
+        std::vector<Vertex> all;
         for (const auto& vertex : found)
             if (vertex) all.push_back(*vertex);
         return all;
     }
-    std::optional<Seen> first_diffuse(const CameraRay& ray, Sampler& sampler) const {
+    std::optional<Vertex> first_diffuse(const CameraRay& ray, Sampler& sampler) const {
         SurfacePoint x;
         Vec3 w = ray.direction;
         const auto found = [&](std::size_t) -> SurfacePoint& { return x; };
@@ -149,7 +149,7 @@ private:
         for (int reflections = 0; hit && reflections < most_reflections; ++reflections) {
             const SurfaceSide side = scene_.materials.side(x, -w);
             if (!side.bsdf) break;
-            if (diffuse_reflection(side)) return Seen{x, side.p.frame};
+            if (diffuse_reflection(side)) return Vertex{x, side.p.frame};
             const BsdfSample next = MaterialContinuation().sample(side, side.p.frame.to_local(-w), sampler);
             if (next.pdf == 0.0) break;
             w = side.p.frame.to_world(next.wi);
@@ -161,18 +161,18 @@ private:
         return std::nullopt;
     }
 
-    bool is_covered(const Seen& vertex, bool by_seen, std::vector<Near>& near) const {
+    bool is_covered(const Vertex& vertex, bool by_seen, std::vector<NearRecord>& near) const {
         places_.find(vertex.x.position, vertex.frame.n, by_seen, reach_for_cover, near);
         return !near.empty();
     }
 
-    void cover(std::vector<Seen> vertices, bool seen) {
+    void cover(std::vector<Vertex> vertices, bool seen) {
         std::size_t at_once = fewest_at_once;
         std::vector<char> covered;
         for (;;) {
             covered.assign(vertices.size(), 0);
             oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::size_t>(0, vertices.size(), 64), [&](const auto& range) {
-                std::vector<Near>& near = work_.local().near;
+                std::vector<NearRecord>& near = work_.local().near;
                 for (std::size_t i = range.begin(); i < range.end(); ++i) covered[i] = is_covered(vertices[i], seen, near);
             });
             std::size_t left = 0;
@@ -196,7 +196,7 @@ private:
         }
     }
 
-    void add(const Seen& vertex, const Proposal& proposal, bool seen) {
+    void add(const Vertex& vertex, const Proposal& proposal, bool seen) {
         auto& records = places_.records_;
         records.push_back({vertex.x, vertex.frame, clamped(proposal.radius * (seen ? 1.0 : unseen_radius)), seen});
         const double bytes = bytes_of_ray * static_cast<double>(records.size() * places_.cells_.size());
@@ -211,7 +211,7 @@ private:
     double clamped(double radius) const { return std::clamp(radius, smallest_part * extent_, extent_); }
 
     // Traces the rays of a record at the vertex.
-    void propose(const Seen& vertex, std::size_t number, Proposal& proposal, Work& work) {
+    void propose(const Vertex& vertex, std::size_t number, Proposal& proposal, Work& work) {
         const HemisphereCells& cells = places_.cells_;
         const std::size_t count = cells.size();
         const WalkSettings settings{.bounces = bounces_looked_at, .rest_probability = 0.0};
@@ -238,7 +238,7 @@ private:
     }
 
     // Finds the reach by rays that just rise above the surface. A surface that bends up with it is not an object on it.
-    Index::Reach reach(const Seen& vertex) const {
+    Index::Reach reach(const Vertex& vertex) const {
         constexpr std::size_t sectors = Index::sectors;
         std::array<double, sectors> free{};
         for (std::size_t k = 0; k < sectors; ++k) {
@@ -297,7 +297,7 @@ private:
     SobolPoints points_;
     double extent_ = 1.0;
     std::size_t proposed_ = 0;
-    std::vector<Seen> ahead_;  // vertices that records see
+    std::vector<Vertex> ahead_;  // vertices that records see
     oneapi::tbb::enumerable_thread_specific<Work> work_;
 
 public:
@@ -323,7 +323,7 @@ RecordPlaces::RecordPlaces(const Scene& scene, const CacheSettings& settings, Sa
 
 RecordPlaces::~RecordPlaces() = default;
 
-void RecordPlaces::find(const Vec3& y, const Vec3& n, bool only_seen, double most, std::vector<Near>& near) const {
+void RecordPlaces::find(const Vec3& y, const Vec3& n, bool only_seen, double most, std::vector<NearRecord>& near) const {
     near.clear();
     index_->for_near(y, [&](std::uint32_t number) {
         const Record& record = records_[number];

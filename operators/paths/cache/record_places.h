@@ -53,17 +53,17 @@ public:
     double disk() const { return disk_; }       // ℓ
     std::uint64_t rays() const { return rays_; }
 
-    struct Near {
+    struct NearRecord {
         std::uint32_t record;
         float error;                  // e
         std::array<float, 4> offset;  // n and y − x along x and y of the record's frame
     };
     // Finds the records with e < `most` at y, in an order that depends only on the records and y. Overwrites `near`.
-    void find(const Vec3& y, const Vec3& n, bool only_seen, double most, std::vector<Near>& near) const;
+    void find(const Vec3& y, const Vec3& n, bool only_seen, double most, std::vector<NearRecord>& near) const;
 
 private:
     class Index;
-    struct Seen;
+    struct Vertex;
     class Placer;
 
     CacheSettings settings_;

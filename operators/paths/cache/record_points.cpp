@@ -27,7 +27,7 @@ std::vector<RecordPoint> record_points(const Scene& scene, const CacheSettings& 
             owner.push_back(i);
         }
     }
-    ask_visibility(
+    test_visibility(
         scene.geometry, edges.size(), RayCaster::Rays::any,
         [&](std::size_t k) {
             return std::pair<const SurfacePoint&, const SurfacePoint&>(points[owner[k]].record.x, edges[k].lens);

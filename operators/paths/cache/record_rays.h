@@ -44,7 +44,7 @@ void RecordTracer::trace_ray(std::uint64_t pass, std::uint32_t ray, const Observ
     PlainWalkers walkers;
     std::vector<std::uint64_t> counted(static_cast<std::size_t>(walk_.bounces) + 2);
     std::uint64_t given_up = 0;
-    std::vector<RecordPlaces::Near> near;
+    std::vector<RecordPlaces::NearRecord> near;
     leave_record(*scene_, places_->cells(), from.x, from.frame, cell, std::span(sampler), walkers, observer, [](auto...) {});
     walk_to_records(
         *scene_, *direct_, walk_, std::span(sampler), walkers, counted, given_up,

@@ -42,7 +42,7 @@ struct RecordTracer::Workspace {
     explicit Workspace(std::size_t quantities) : rays(quantities) {}
     PlainWalkers walkers;
     std::vector<Sampler> samplers;
-    std::vector<RecordPlaces::Near> near;
+    std::vector<RecordPlaces::NearRecord> near;
     std::vector<double> inverse_distances;
     std::vector<Vec2> translation;
     std::vector<glm::vec3> radiance[2];
@@ -50,24 +50,25 @@ struct RecordTracer::Workspace {
     std::uint64_t given_up = 0;
 };
 
-std::optional<std::uint32_t> CachePass::read(const Vec3& y, const Vec3& n, std::vector<RecordPlaces::Near>& near,
+std::optional<std::uint32_t> CachePass::read(const Vec3& y, const Vec3& n, std::vector<RecordPlaces::NearRecord>& near,
                                              std::span<Rgb> E) const {
     places_->find(y, n, true, wider, near);
     std::ranges::fill(E, Rgb(0.0));
     double sums[2] = {0.0, 0.0};
     float most = 0.0f;
     std::optional<std::uint32_t> largest;
-    for (const RecordPlaces::Near& of : near) {
-        const float weight[2] = {std::max(1.0f - of.error, 0.0f), 1.0f - of.error / static_cast<float>(wider)};
+    for (const RecordPlaces::NearRecord& near_record : near) {
+        const float weight[2] = {std::max(1.0f - near_record.error, 0.0f), 1.0f - near_record.error / static_cast<float>(wider)};
         for (std::size_t radii = 0; radii < 2; ++radii) {
             sums[radii] += double{weight[radii]};
             if (weight[radii] == 0.0f) continue;
             for (std::size_t k = 0; k < bounces_; ++k)
-                E[2 * k + radii] += Rgb(weight[radii] * values_[radii][k * places_->records().size() + of.record].at(of.offset));
+                E[2 * k + radii] +=
+                    Rgb(weight[radii] * values_[radii][k * places_->records().size() + near_record.record].at(near_record.offset));
         }
         if (weight[narrow] <= most) continue;
         most = weight[narrow];
-        largest = of.record;
+        largest = near_record.record;
     }
     for (std::size_t k = 0; k < E.size(); ++k) E[k] /= sums[k % 2];
     return largest;
@@ -105,10 +106,10 @@ void RecordTracer::send_out(std::uint64_t pass, std::size_t record, Rays& rays, 
         [&](std::uint32_t i, const Walker& w, const Vec3& n, const Rgb& weight, int bounce) {
             places_->find(w.x.position, n, false, wider, work.near);
             double sums[2] = {0.0, 0.0};
-            const auto weight_of = [](const RecordPlaces::Near& near, std::size_t radii) {
+            const auto weight_of = [](const RecordPlaces::NearRecord& near, std::size_t radii) {
                 return std::max(1.0 - double{near.error} / (radii == CachePass::wide ? wider : 1.0), 0.0);
             };
-            for (const RecordPlaces::Near& near : work.near)
+            for (const RecordPlaces::NearRecord& near : work.near)
                 for (std::size_t radii = 0; radii < 2; ++radii) sums[radii] += weight_of(near, radii);
             if (sums[CachePass::narrow] == 0.0) return false;
             Rays::Link& link = links[i];
@@ -117,7 +118,7 @@ void RecordTracer::send_out(std::uint64_t pass, std::size_t record, Rays& rays, 
             const double choice = work.samplers[i].next();
             for (std::size_t radii = 0; radii < 2; ++radii) {
                 double left = choice * sums[radii];
-                for (const RecordPlaces::Near& near : work.near) {
+                for (const RecordPlaces::NearRecord& near : work.near) {
                     const double part = weight_of(near, radii);
                     if (part == 0.0) continue;
                     link.record[radii] = near.record;
@@ -187,7 +188,7 @@ std::optional<CachePass> RecordTracer::trace(std::uint64_t pass, std::span<std::
             for (std::size_t radii = 0; radii < 2; ++radii) work.radiance[radii][i] += link.weight * read(link, radii);
         }
     };
-    const auto said = [&](const Rays::Link& link, std::size_t radii, std::size_t k) {
+    const auto irradiance_read = [&](const Rays::Link& link, std::size_t radii, std::size_t k) {
         return result.of(CachePass::Radii(radii), k)[link.record[radii]].value;
     };
     for (std::size_t k = 1; k <= kept_; ++k) {
@@ -200,8 +201,8 @@ std::optional<CachePass> RecordTracer::trace(std::uint64_t pass, std::span<std::
             reflect(record, work, [&](const Rays::Link& link, std::size_t radii) {
                 glm::vec3 sum(0.0f);
                 const std::size_t first = k > link.bounce ? k - link.bounce : 0;
-                for (std::size_t of = std::max<std::size_t>(first, 1); of < k && (of_rest || of == first); ++of)
-                    sum += said(link, radii, of);
+                for (std::size_t j = std::max<std::size_t>(first, 1); j < k && (of_rest || j == first); ++j)
+                    sum += irradiance_read(link, radii, j);
                 return sum;
             });
             for (std::size_t i = 0; i < count; ++i)
@@ -212,8 +213,8 @@ std::optional<CachePass> RecordTracer::trace(std::uint64_t pass, std::span<std::
         if (!goes_on) return std::nullopt;
     }
     for (std::size_t record = 0; record < records; ++record) {
-        const auto of = std::span(rays.brightness).subspan(record * count, count);
-        result.brightest_[record] = static_cast<std::uint32_t>(std::ranges::max_element(of) - of.begin());
+        const auto brightness = std::span(rays.brightness).subspan(record * count, count);
+        result.brightest_[record] = static_cast<std::uint32_t>(std::ranges::max_element(brightness) - brightness.begin());
     }
     if (!has_rest_) return result;
 

@@ -60,7 +60,8 @@ public:
 
     // Finds the irradiance at y for each bounce with narrow and with wide radii: E[2 (k − 1)] and E[2 (k − 1) + 1].
     // Returns the record with the largest weight, or nothing if there is none nearby.
-    std::optional<std::uint32_t> read(const Vec3& y, const Vec3& n, std::vector<RecordPlaces::Near>& near, std::span<Rgb> E) const;
+    std::optional<std::uint32_t> read(const Vec3& y, const Vec3& n, std::vector<RecordPlaces::NearRecord>& near,
+                                      std::span<Rgb> E) const;
 
     // The ray of a record that brings most light.
     std::uint32_t brightest_ray(std::size_t record) const { return brightest_[record]; }

@@ -20,11 +20,11 @@
 #include "operators/paths/corrected/approximation.h"
 #include "operators/paths/corrected/diffuse_sides.h"
 #include "operators/paths/corrected/shared_points.h"
-#include "operators/paths/walk/ask_light.h"
 #include "operators/paths/walk/continuation.h"
 #include "operators/paths/walk/coupling.h"
 #include "operators/paths/walk/guided_continuation.h"
 #include "operators/paths/walk/observer.h"
+#include "operators/paths/walk/shadow_rays.h"
 #include "operators/paths/walk/term_samples.h"
 #include "operators/paths/walk/walk_settings.h"
 
@@ -52,14 +52,14 @@ struct CorrectedWalker : Walker {
     double survival = 1.0;    // FirstVertex::survival if that was its first diffuse vertex, otherwise 1
     // The number of walks from its last vertex for which it reads a shared point (0: it reads none); the point, and the
     // weight of its errors.
-    double asks_for = 1.0;
+    double walks_per_point = 1.0;
     std::uint32_t point = 0;
     Rgb point_weight{0.0};
 };
 
 struct CorrectedWalkers : Together<CorrectedWalker> {
-    std::vector<Sampler> samplers;      // one for each walker
-    std::vector<std::uint32_t> asking;  // walkers whose light sample or shared point needs a shadow ray
+    std::vector<Sampler> samplers;               // one for each walker
+    std::vector<std::uint32_t> with_shadow_ray;  // walkers whose light sample or shared point needs a shadow ray
     std::vector<std::uint32_t> single, splitting;
     std::vector<float> fields;
 };
@@ -102,12 +102,12 @@ private:
                                                       : GuidedContinuation::Vertex();
         const BsdfSample sampled = vertex.sample(side, side.p.frame.to_local(w.wo), sampler);
         w.point_weight = Rgb(0.0);
-        if (w.reads && points_ && w.asks_for > 0.0) {
+        if (w.reads && points_ && w.walks_per_point > 0.0) {
             const SharedPoints::Chosen chosen = points_->choose(w.x.position, side.p.frame.n, w.clamp, sampler.next());
             w.point = chosen.point;
             const SharedPoints::Point& y = (*points_)[chosen.point];
             if (glm::dot(y.shading, w.x.position - y.y.position) > 0.0)
-                w.point_weight = w.beta * std::get<Diffuse>(*side.bsdf).reflectance(side.p) * (w.asks_for * chosen.weight);
+                w.point_weight = w.beta * std::get<Diffuse>(*side.bsdf).reflectance(side.p) * (w.walks_per_point * chosen.weight);
         }
         w.leave(side, sampled);
         return true;
@@ -118,7 +118,7 @@ private:
         const bool front = glm::dot(w.x.normal, w.wo) > 0.0;
         if (!w.reads || !fields_->covers(w.x, front)) return true;
         const Vec3 normal = front ? w.x.normal : -w.x.normal;
-        if (fields_->is_smooth(w.x) && !see_alike(scene_.materials, w.x, normal, w.wo)) return true;
+        if (fields_->is_smooth(w.x) && !normals_agree(scene_.materials, w.x, normal, w.wo)) return true;
         const double g = coupling(w.from.position, w.from.normal, w.x.position, normal);
         const double left = g > w.clamp ? 1.0 - w.clamp / g : 0.0;
         const bool on = left > 0.0 && (left * w.survival >= 1.0 || sampler.next() < left * w.survival);
@@ -163,16 +163,16 @@ NEUMANN_HOT void CorrectedWalk::operator()(CorrectedWalkers& walkers, const Ligh
             observer.finds(i, quantity, x);
         };
         const auto find = [&](std::uint32_t i, const Rgb& x) { find_later(i, 0, x); };
-        const auto ask_lights = [&](const auto& sampler_at) {
-            for (std::size_t question = 0; question < direct_.questions(); ++question) {
+        const auto sample_lights = [&](const auto& sampler_at) {
+            for (std::size_t light_sample = 0; light_sample < direct_.light_samples(); ++light_sample) {
                 walkers.keep_if([&](CorrectedWalker& w, std::uint32_t i) {
                     const SurfaceSide side = scene_.materials.side(w.x, w.wo);
                     if (!side.bsdf) return false;
-                    choose_question(direct_, question, MaterialContinuation(), w.directions, side, side.p.frame.to_local(w.wo),
-                                    sampler_at(i), w);
+                    choose_light_sample(direct_, light_sample, MaterialContinuation(), w.directions, side,
+                                        side.p.frame.to_local(w.wo), sampler_at(i), w);
                     return true;
                 });
-                out.rays[q] += answer(scene_, T, direct_, LeftOut(), bounce, walkers, observer, find);
+                out.rays[q] += cast_shadow_rays(scene_, T, direct_, LeftOut(), bounce, walkers, observer, find);
             }
         };
 
@@ -186,25 +186,25 @@ NEUMANN_HOT void CorrectedWalk::operator()(CorrectedWalkers& walkers, const Ligh
             w.directions = splits ? static_cast<double>(first_.directions) / first_.lights : 1.0;
             w.clamp = points_ ? (splits ? first_.clamp : later_clamp) * of_area_ : 0.0;
             w.survival = splits ? first_.survival : 1.0;
-            w.asks_for = 1.0;
+            w.walks_per_point = 1.0;
             if (splits) w.beta /= static_cast<double>(first_.directions);
             (splits ? walkers.splitting : walkers.single).push_back(i);
         }
         if (!walkers.single.empty()) {
             walkers.alive = walkers.single;
-            ask_lights([&](std::uint32_t i) -> Sampler& { return walkers.samplers[i]; });
+            sample_lights([&](std::uint32_t i) -> Sampler& { return walkers.samplers[i]; });
             walkers.single = walkers.alive;
         }
         if (!walkers.splitting.empty()) {
             walkers.alive = walkers.splitting;
             for (std::uint32_t l = 0; l < first_.lights; ++l)
-                ask_lights([&](std::uint32_t i) -> Sampler& { return light_sampler(i, l); });
+                sample_lights([&](std::uint32_t i) -> Sampler& { return light_sampler(i, l); });
             for (const std::uint32_t i : walkers.splitting) {
                 walkers.walker[i].is_split = true;
                 for (std::uint32_t g = 0; g < first_.directions; ++g) {
                     walkers.single.push_back(static_cast<std::uint32_t>(walkers.walker.size()));
                     walkers.walker.push_back(walkers.walker[i]);
-                    walkers.walker.back().asks_for =
+                    walkers.walker.back().walks_per_point =
                         g < first_.points ? static_cast<double>(first_.directions) / first_.points : 0.0;
                     walkers.samplers.push_back(sampler_of(i, g));
                 }
@@ -213,20 +213,20 @@ NEUMANN_HOT void CorrectedWalk::operator()(CorrectedWalkers& walkers, const Ligh
         walkers.alive = walkers.single;
 
         // R chooses directions and points, and T finds which points are visible.
-        walkers.asking.clear();
+        walkers.with_shadow_ray.clear();
         walkers.keep_if([&](CorrectedWalker& w, std::uint32_t i) {
             if (!choose_direction(w, N - bounce, walkers.samplers[i])) return false;
-            if (!is_black(w.point_weight) && !ending.is_last(bounce)) walkers.asking.push_back(i);
+            if (!is_black(w.point_weight) && !ending.is_last(bounce)) walkers.with_shadow_ray.push_back(i);
             return true;
         });
-        ask_visibility(
-            T, walkers.asking.size(), RayCaster::Rays::any,
+        test_visibility(
+            T, walkers.with_shadow_ray.size(), RayCaster::Rays::any,
             [&](std::size_t k) {
-                const CorrectedWalker& w = walkers.walker[walkers.asking[k]];
+                const CorrectedWalker& w = walkers.walker[walkers.with_shadow_ray[k]];
                 return std::pair<const SurfacePoint&, const SurfacePoint&>(w.x, (*points_)[w.point].y);
             },
             [&](std::size_t k, bool seen) {
-                const std::uint32_t i = walkers.asking[k];
+                const std::uint32_t i = walkers.with_shadow_ray[k];
                 const CorrectedWalker& w = walkers.walker[i];
                 const SurfacePoint& y = (*points_)[w.point].y;
                 observer.joins(i, bounce, w.x, y, seen);
@@ -234,7 +234,7 @@ NEUMANN_HOT void CorrectedWalk::operator()(CorrectedWalkers& walkers, const Ligh
                 const Rgb* errors = points_->errors_at(w.point);
                 for (std::size_t k = 1; k <= points_->fields(); ++k) find_later(i, k, w.point_weight * errors[k - 1]);
             });
-        out.rays[q] += walkers.asking.size();
+        out.rays[q] += walkers.with_shadow_ray.size();
 
         // T follows the direction. The light that it hits, Le, is added; then the fields are read, or the walk goes on.
         walkers.keep_if([&](CorrectedWalker& w, std::uint32_t i) {

@@ -1,5 +1,5 @@
 // The sides of surfaces with Lambert's material, whose reflected radiance is the same in all directions, so that one
-// value at a point is all of K^k Le there. With interpolated normals that is so in the directions for which see_alike()
+// value at a point is all of K^k Le there. With interpolated normals that is so in the directions for which normals_agree()
 // is true; corrected walks leave the others to walks that go on. Corrected fields and shared points are on these sides.
 #pragma once
 
@@ -26,7 +26,7 @@ private:
 
 // Whether the direction w is on the same side of p by the shading normal as by the geometric normal of this side,
 // `normal`. Without interpolated normals this is w · normal > 0.
-inline bool see_alike(const Materials& materials, const SurfacePoint& p, const Vec3& normal, const Vec3& w) {
+inline bool normals_agree(const Materials& materials, const SurfacePoint& p, const Vec3& normal, const Vec3& w) {
     return glm::dot(materials.side(p, normal).p.frame.n, w) > 0.0;
 }
 

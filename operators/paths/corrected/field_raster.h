@@ -45,7 +45,7 @@ public:
             std::copy_n(direct, 3, fields);
             return;
         }
-        const Place place = place_on(number, p.position);
+        const ChartCoordinates place = coordinates_on(number, p.position);
         blend(values_.data(), stride_, stride_, corners(grids_[number], place, front), fields);
         blend(fine_.data(), 3, 3, corners(fine_grids_[number], place, front), fields);
     }
@@ -58,18 +58,18 @@ private:
         std::uint32_t first_patch = 0;
         std::array<std::size_t, 2> first{};  // first node of the front and of the back
     };
-    struct Place {
+    struct ChartCoordinates {
         float s, t;  // in [0, 1]
     };
     struct Corners {
         std::array<std::size_t, 4> node;
         std::array<float, 4> weight;
     };
-    Place place_on(std::uint32_t chart, const Vec3& position) const {
+    ChartCoordinates coordinates_on(std::uint32_t chart, const Vec3& position) const {
         const Vec2 st = space_->patches().charts()[chart].coordinates(space_->geometry(), position);
         return {std::clamp(static_cast<float>(st.x), 0.0f, 1.0f), std::clamp(static_cast<float>(st.y), 0.0f, 1.0f)};
     }
-    static Corners corners(const Grid& grid, const Place& place, bool front) {
+    static Corners corners(const Grid& grid, const ChartCoordinates& place, bool front) {
         const float x = place.s * static_cast<float>(grid.columns - 1), y = place.t * static_cast<float>(grid.rows - 1);
         const auto i = static_cast<std::uint32_t>(x), j = static_cast<std::uint32_t>(y);
         const std::uint32_t right = i + 1 < grid.columns ? 1 : 0, below = j + 1 < grid.rows ? grid.columns : 0;

@@ -33,12 +33,12 @@ public:
         rows_ = starts(rows.begin());
     }
 
-    struct Place {
+    struct CellSample {
         Vec2 u;
         double inverse_density;
     };
     // Samples a place for a uniform u in [0, 1)².
-    Place sample(const Vec2& u) const {
+    CellSample sample(const Vec2& u) const {
         const Choice row = choose(rows_, u.y), cell = choose(cells_[row.number], u.x);
         return {{cell.place, row.place}, row.inverse_density * cell.inverse_density};
     }

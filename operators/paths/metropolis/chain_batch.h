@@ -98,7 +98,7 @@ void ChainBatch::trace(std::span<std::uint64_t> counts, const Observer& observer
         rays_.push_back(scene_->camera.sample_ray(positions_[i], camera_[i]));
         s_.push_back(proposed_[i].s);
     }
-    const auto set = [&](std::uint32_t i, const Vec2& position, const Found& f, double measure) {
+    const auto set = [&](std::uint32_t i, const Vec2& position, const WayContribution& f, double measure) {
         const Rgb value = f.value * (f.weight * measure);
         const double size = size_of(value);
         if (!std::isfinite(size)) non_finite_.push_back(i);
@@ -109,10 +109,10 @@ void ChainBatch::trace(std::span<std::uint64_t> counts, const Observer& observer
     };
     bidirectional_->trace(
         scene_->geometry, std::span<const CameraRay>(rays_), std::span(camera_), std::span(light_), work_,
-        [&](std::uint32_t i, const Found& f) {
+        [&](std::uint32_t i, const WayContribution& f) {
             set(i, positions_[i], f, area_->pixels() * scene_->camera.response(positions_[i]));
         },
-        [&](std::uint32_t i, const Vec2& position, const Found& f) {
+        [&](std::uint32_t i, const Vec2& position, const WayContribution& f) {
             if (area_->holds(position)) set(i, position, f, 1.0);
         },
         counts, observer, OneWay{bounce_, s_});
@@ -147,7 +147,7 @@ void ChainBatch::start(const IndependentPaths& paths, std::uint64_t replicate, s
         states_[i].weight = 1.0;
         camera_[i].accept();
         light_[i].accept();
-        diaries_[i].stand(area_->place_of(states_[i].position));
+        diaries_[i].add_state(area_->place_of(states_[i].position));
     }
 }
 
@@ -185,7 +185,7 @@ void ChainBatch::step(std::uint32_t t, const OnLeft& left, std::span<std::uint64
         }
         ++stay_[i];
         leave(i, next, left);
-        diaries_[i].stand(area_->place_of(old.position));
+        diaries_[i].add_state(area_->place_of(old.position));
     }
 }
 

@@ -35,7 +35,7 @@ double ChainStatistics::autocorrelation_time() const {
     return longest;
 }
 
-void ChainDiary::stand(const Vec2& place) {
+void ChainDiary::add_state(const Vec2& place) {
     ++states_;
     for (int k = 0; k < 2; ++k) {
         const auto x = static_cast<std::uint64_t>(std::clamp(place[k], 0.0, 1.0) * 255.0);

@@ -31,7 +31,7 @@ struct ChainStatistics {
 class ChainDiary {
 public:
     // Adds a state, the start included; `place` is in [0, 1)².
-    void stand(const Vec2& place);
+    void add_state(const Vec2& place);
     void add_to(ChainStatistics& all) const;
 
 private:

@@ -72,17 +72,17 @@ public:
             work.positions.push_back(area_.at(work.camera[i].next2()));
             work.rays.push_back(scene_->camera.sample_ray(work.positions[i], work.camera[i]));
         }
-        const auto tell = [&](std::uint32_t i, const Vec2& position, const Found& f, double measure) {
+        const auto tell = [&](std::uint32_t i, const Vec2& position, const WayContribution& f, double measure) {
             const Rgb value = f.value * (f.weight * measure);
             if (!is_black(value)) found(i, WayFound{f.bounce, f.s, value, position});
         };
         return bidirectional_.trace(
             scene_->geometry, std::span<const CameraRay>(work.rays), std::span(work.camera), std::span(work.light),
             work.bidirectional,
-            [&](std::uint32_t i, const Found& f) {
+            [&](std::uint32_t i, const WayContribution& f) {
                 tell(i, work.positions[i], f, area_.pixels() * scene_->camera.response(work.positions[i]));
             },
-            [&](std::uint32_t i, const Vec2& position, const Found& f) {
+            [&](std::uint32_t i, const Vec2& position, const WayContribution& f) {
                 if (area_.holds(position)) tell(i, position, f, 1.0);
             },
             counts, observer);

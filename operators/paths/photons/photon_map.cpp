@@ -63,7 +63,7 @@ PhotonMap::PhotonMap(std::vector<Photon> photons) : photons_(std::move(photons))
 PhotonMap::~PhotonMap() = default;
 PhotonMap::PhotonMap(PhotonMap&&) noexcept = default;
 
-void PhotonMap::find(const SurfacePoint& x, double radius, std::vector<Near>& near) const {
+void PhotonMap::find(const SurfacePoint& x, double radius, std::vector<NearPhoton>& near) const {
     near.clear();
     if (!tree_) return;
     const glm::vec3 at(x.position), normal(x.normal);

@@ -31,14 +31,14 @@ public:
 
     const std::vector<Photon>& photons() const { return photons_; }
 
-    struct Near {
+    struct NearPhoton {
         const Photon* photon;
         double distance2;
     };
     // Finds the photons within the radius that lie on about the same surface as x: with a normal up to 60° from its own
     // or its opposite (meshes may be wound either way; the material knows its sides), and a fifth of the radius at most
     // above or below it. Their order depends only on the map and x. Overwrites `near`.
-    void find(const SurfacePoint& x, double radius, std::vector<Near>& near) const;
+    void find(const SurfacePoint& x, double radius, std::vector<NearPhoton>& near) const;
     // The distance of the k-th nearest photon; ∞ if there are fewer.
     double distance(const Vec3& x, std::size_t k) const;
 

@@ -37,7 +37,7 @@ std::vector<PhotonPoint> photon_points(const Scene& scene, int bounces, std::uin
                     }
                 },
                 [](int, std::size_t) {}, NoObserver());
-            ask_visibility(
+            test_visibility(
                 scene.geometry, edges.size(), RayCaster::Rays::any,
                 [&](std::size_t k) {
                     return std::pair<const SurfacePoint&, const SurfacePoint&>(edges[k].first, edges[k].second.lens);

@@ -1,7 +1,7 @@
 // Walks from the camera that read photon maps. A walk goes on from mirrors and through glass to its first vertex x at
 // which light is reflected in more than single directions. The light that x reflects has come
 //
-//     directly from a light: found by light samples, as by other walks (ask_light.h);
+//     directly from a light: found by light samples, as by other walks (shadow_rays.h);
 //     from a light by way of delta lobes only (a caustic): read from the map of caustics;
 //     in all other ways: read from the other map at x; or, with gathering, one more direction is sampled, and the map
 //     of all photons is read at the first such vertex that it finds.
@@ -13,10 +13,10 @@
 #include "core/base/hot.h"
 #include "operators/paths/photons/photon_map.h"
 #include "operators/paths/photons/photon_pilot.h"
-#include "operators/paths/walk/ask_light.h"
 #include "operators/paths/walk/continuation.h"
 #include "operators/paths/walk/first_vertices.h"
 #include "operators/paths/walk/observer.h"
+#include "operators/paths/walk/shadow_rays.h"
 #include "operators/paths/walk/term_samples.h"
 #include "operators/paths/walk/walk_settings.h"
 #include "operators/pointwise/adjoint_reflection.h"
@@ -35,7 +35,7 @@ struct PhotonPass {
 
 struct PhotonWalkers : Walkers {
     std::vector<char> gathers;  // whether the walk has reflected in a direction that is not of a delta lobe
-    std::vector<PhotonMap::Near> near;
+    std::vector<PhotonMap::NearPhoton> near;
     std::vector<Rgb> light;  // light that was read, for each quantity
 };
 
@@ -55,10 +55,10 @@ private:
     // The light of a map's photons that x reflects towards wo: calls found(photon, light, difference) for each photon.
     template <class Found>
     static void read(const PhotonMap& map, double radius, const SurfaceSide& side, const SurfacePoint& x, const Vec3& wo,
-                     std::vector<PhotonMap::Near>& near, const Found& found) {
+                     std::vector<PhotonMap::NearPhoton>& near, const Found& found) {
         map.find(x, radius, near);
         const double radius2 = radius * radius;
-        for (const PhotonMap::Near& n : near) {
+        for (const PhotonMap::NearPhoton& n : near) {
             // With shading normals R* has |ωi·ns| / |ωi·ng| (adjoint_reflection.h), here with the facet on which the photon lies.
             const Vec3 wi(n.photon->wi), local = side.p.frame.to_local(wi);
             const Rgb light = eval(*side.bsdf, side.p, side.p.frame.to_local(wo), local) * Rgb(n.photon->power) *
@@ -103,46 +103,47 @@ NEUMANN_HOT void PhotonWalk::operator()(std::span<const CameraRay> rays, std::sp
             read(map, radius, side, w.x, w.wo, walkers.near, [&](const Photon& photon, const Rgb& light, const Rgb& difference) {
                 const int reflected = bounce - 1 + static_cast<int>(photon.bounce);
                 if (reflected > N && settings_.rest_probability == 0.0) return;
-                const auto of = static_cast<std::size_t>(std::min(reflected, N + 1));
-                walkers.light[of] += light;
-                walkers.light[terms + of] += difference;
+                const auto term = static_cast<std::size_t>(std::min(reflected, N + 1));
+                walkers.light[term] += light;
+                walkers.light[terms + term] += difference;
                 if (largest && max_component(light) <= max_component(of_largest)) return;
                 largest = &photon;
                 of_largest = light;
             });
             if (!largest) return;
-            for (std::size_t of = 0; of < terms; ++of) {
-                if (is_black(walkers.light[of])) continue;
-                find(i, of, w.beta * walkers.light[of]);
-                const Rgb lost = w.beta * walkers.light[terms + of];
+            for (std::size_t term = 0; term < terms; ++term) {
+                if (is_black(walkers.light[term])) continue;
+                find(i, term, w.beta * walkers.light[term]);
+                const Rgb lost = w.beta * walkers.light[terms + term];
                 // A loss that is not finite is noticed in the term itself.
-                if (is_finite(lost)) out.quantities[i * quantities + terms + of] += lost;
+                if (is_finite(lost)) out.quantities[i * quantities + terms + term] += lost;
             }
             observer.reads(i, largest->path, largest->bounce, w.beta * of_largest);
         };
         // R reads the maps, samples the lights and, along with the last light sample, the next direction.
-        const std::size_t questions = std::max<std::size_t>(direct_.questions(), 1);
-        for (std::size_t question = 1; question <= questions; ++question) {
+        const std::size_t light_samples = std::max<std::size_t>(direct_.light_samples(), 1);
+        for (std::size_t light_sample = 1; light_sample <= light_samples; ++light_sample) {
             walkers.keep_if([&](Walker& w, std::uint32_t i) {
                 const SurfaceSide side = scene_.materials.side(w.x, w.wo);
                 if (!side.bsdf) return false;
                 const Vec3 wo = side.p.frame.to_local(w.wo);
                 const bool gathers = walkers.gathers[i] != 0;
-                w.asked.value = Rgb(0.0);
+                w.shadow_ray.value = Rgb(0.0);
                 if (!is_delta_only(*side.bsdf)) {
-                    if (question == 1 && !gathers && !pass_.caustic.photons().empty())
+                    if (light_sample == 1 && !gathers && !pass_.caustic.photons().empty())
                         read_map(pass_.caustic, pass_.relative_radius * pilot_.caustic_radius(w.x.position), side, w, i);
-                    if (question == 1 && (gathers || !gather_))
+                    if (light_sample == 1 && (gathers || !gather_))
                         read_map(pass_.others, pass_.relative_radius * pilot_.settings.radius, side, w, i);
-                    if (!gathers && direct_.questions() > 0)
-                        choose_question(direct_, question % questions, MaterialContinuation(), 1.0, side, wo, samplers[i], w);
+                    if (!gathers && direct_.light_samples() > 0)
+                        choose_light_sample(direct_, light_sample % light_samples, MaterialContinuation(), 1.0, side, wo,
+                                            samplers[i], w);
                 }
-                if (question < questions) return true;
+                if (light_sample < light_samples) return true;
                 w.leave(side, MaterialContinuation().sample(side, wo, samplers[i]));
                 return true;
             });
-            out.rays[q] += answer(scene_, T, direct_, LeftOut(), bounce, walkers, observer,
-                                  [&](std::uint32_t i, const Rgb& light) { find(i, q, light); });
+            out.rays[q] += cast_shadow_rays(scene_, T, direct_, LeftOut(), bounce, walkers, observer,
+                                            [&](std::uint32_t i, const Rgb& light) { find(i, q, light); });
         }
         walkers.keep_if([&](Walker& w, std::uint32_t i) {
             if (w.pdf == 0.0 || is_black(w.beta)) return false;

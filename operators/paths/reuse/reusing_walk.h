@@ -29,7 +29,7 @@
 namespace neumann {
 
 // A walk at its first diffuse vertex x and the next vertex y.
-struct Corner {
+struct FirstEdge {
     SurfacePoint x, y;
     Vec3 nx{0.0}, ny{0.0};
     Rgb weight{0.0};      // β ρ
@@ -41,24 +41,24 @@ struct Corner {
 template <class Observer>
 class TailObserver {
 public:
-    TailObserver(const Observer& observer, std::span<const Corner> corners) : observer_(observer), corners_(corners) {}
+    TailObserver(const Observer& observer, std::span<const FirstEdge> edges) : observer_(observer), edges_(edges) {}
 
     void casts(std::uint32_t path, bool from_light, int reflections, const PathEnd& end) const {
         PathEnd whole = end;
-        whole.beta *= corners_[path].weight;
-        observer_.casts(path, from_light, reflections + corners_[path].reflections, whole);
+        whole.beta *= edges_[path].weight;
+        observer_.casts(path, from_light, reflections + edges_[path].reflections, whole);
     }
     void meets(std::uint32_t path, const SurfacePoint& y) const { observer_.meets(path, y); }
-    void asks(std::uint32_t path, bool from_light, int bounce, const SurfacePoint& x, const Vec3& w, const SurfacePoint& y,
-              bool seen) const {
-        observer_.asks(path, from_light, bounce + corners_[path].reflections, x, w, y, seen);
+    void casts_shadow_ray(std::uint32_t path, bool from_light, int bounce, const SurfacePoint& x, const Vec3& w,
+                          const SurfacePoint& y, bool seen) const {
+        observer_.casts_shadow_ray(path, from_light, bounce + edges_[path].reflections, x, w, y, seen);
     }
     void joins(std::uint32_t, int, const SurfacePoint&, const SurfacePoint&, bool) const {}
     void finds(std::uint32_t, std::size_t, const Rgb&) const {}
 
 private:
     const Observer& observer_;
-    std::span<const Corner> corners_;
+    std::span<const FirstEdge> edges_;
 };
 
 // Samples all terms along some camera rays. `rays` has `size` samples of each pixel, pixel by pixel, and `sharing`
@@ -71,7 +71,7 @@ NEUMANN_HOT void walk_reusing(const Scene& scene, const DirectLightSampler& dire
     const int N = settings.bounces;
     const std::size_t quantities = static_cast<std::size_t>(N) + 2, rest = quantities - 1;
     PlainWalkers walkers;
-    std::vector<Corner> corners(rays.size());
+    std::vector<FirstEdge> edges(rays.size());
     const auto find = [&](std::uint32_t i, std::size_t q, const Rgb& light) {
         out.quantities[i * quantities + q] += light;
         observer.finds(i, q, light);
@@ -88,7 +88,7 @@ NEUMANN_HOT void walk_reusing(const Scene& scene, const DirectLightSampler& dire
             // Walks that certainly end here never find a y, so they count in no weight.
             const Rgb weight = w.beta * material->reflectance(side.p);
             if (is_black(weight) || !(side.p.frame.to_local(w.wo).z > 0.0)) return false;
-            corners[i] = {.x = w.x, .y = {}, .nx = side.p.frame.n, .weight = weight, .reflections = bounce};
+            edges[i] = {.x = w.x, .y = {}, .nx = side.p.frame.n, .weight = weight, .reflections = bounce};
             return true;
         },
         find, observer);
@@ -98,7 +98,7 @@ NEUMANN_HOT void walk_reusing(const Scene& scene, const DirectLightSampler& dire
     tails.begin(rays.size());
     tails.keep_if([&](Walker& tail, std::uint32_t i) {
         const Walker& w = walkers.walker[i];
-        Corner& c = corners[i];
+        FirstEdge& c = edges[i];
         if (!walkers.reads[i] || w.x.is_infinite()) return false;
         c.y = w.x;
         const bool front = glm::dot(c.y.normal, w.wo) > 0.0;
@@ -118,20 +118,20 @@ NEUMANN_HOT void walk_reusing(const Scene& scene, const DirectLightSampler& dire
     std::vector<Rgb> found(rays.size() * tail_quantities, Rgb(0.0));
     std::vector<std::uint64_t> tail_rays(tail_quantities);
     TermSamples in_tails{found, tail_rays};
-    walk_tails(of_tails, samplers, tails, in_tails, TailObserver(observer, std::span<const Corner>(corners)));
+    walk_tails(of_tails, samplers, tails, in_tails, TailObserver(observer, std::span<const FirstEdge>(edges)));
     for (std::size_t k = 0; k < tail_quantities; ++k) out.rays[k + 1] += tail_rays[k];
     out.given_up += in_tails.given_up;
 
     const auto use = [&](std::uint32_t p, std::uint32_t q, const Rgb& weight) {
         for (std::size_t k = 1; k < tail_quantities; ++k) {
-            const std::size_t reflected = static_cast<std::size_t>(corners[p].reflections) + k;
+            const std::size_t reflected = static_cast<std::size_t>(edges[p].reflections) + k;
             const Rgb& light = found[q * tail_quantities + k];
             if (is_black(light) || (reflected > static_cast<std::size_t>(N) && settings.rest_probability == 0.0)) continue;
             find(p, std::min(reflected, rest), weight * light);
         }
     };
     for (const std::uint32_t i : with_tail)
-        if (!corners[i].shares) use(i, i, corners[i].weight);
+        if (!edges[i].shares) use(i, i, edges[i].weight);
 
     // Finds which x sees which y. The x of y's own walk sees it anyway.
     struct Pair {
@@ -139,29 +139,29 @@ NEUMANN_HOT void walk_reusing(const Scene& scene, const DirectLightSampler& dire
         double g;
     };
     std::vector<Pair> pairs;
-    std::vector<std::size_t> asking;
+    std::vector<std::size_t> to_connect;
     const std::size_t together = sharing * size;
     for (const std::uint32_t q : with_tail) {
-        if (!corners[q].shares) continue;
+        if (!edges[q].shares) continue;
         const std::size_t begin = q / together * together + q % size,
                           end = std::min(q / together * together + together, rays.size());
         for (std::size_t p = begin; p < end; p += size) {
-            if (corners[p].reflections == 0) continue;
-            const double g = coupling(corners[p].x.position, corners[p].nx, corners[q].y.position, corners[q].ny);
+            if (edges[p].reflections == 0) continue;
+            const double g = coupling(edges[p].x.position, edges[p].nx, edges[q].y.position, edges[q].ny);
             if (!(g > 0.0)) continue;
-            if (p != q) asking.push_back(pairs.size());
+            if (p != q) to_connect.push_back(pairs.size());
             pairs.push_back({static_cast<std::uint32_t>(p), q, g});
         }
     }
-    ask_visibility(
-        scene.geometry, asking.size(), RayCaster::Rays::any,
+    test_visibility(
+        scene.geometry, to_connect.size(), RayCaster::Rays::any,
         [&](std::size_t k) {
-            const Pair& pair = pairs[asking[k]];
-            return std::pair<const SurfacePoint&, const SurfacePoint&>(corners[pair.p].x, corners[pair.q].y);
+            const Pair& pair = pairs[to_connect[k]];
+            return std::pair<const SurfacePoint&, const SurfacePoint&>(edges[pair.p].x, edges[pair.q].y);
         },
         [&](std::size_t k, bool seen) {
-            Pair& pair = pairs[asking[k]];
-            const Corner& c = corners[pair.p];
+            Pair& pair = pairs[to_connect[k]];
+            const FirstEdge& c = edges[pair.p];
             ++out.rays[std::min(static_cast<std::size_t>(c.reflections) + 1, rest)];
             if (!seen) pair.g = 0.0;
         });
@@ -171,8 +171,8 @@ NEUMANN_HOT void walk_reusing(const Scene& scene, const DirectLightSampler& dire
         for (end = begin; end < pairs.size() && pairs[end].q == pairs[begin].q; ++end) all += pairs[end].g;
         for (std::size_t k = begin; k < end; ++k) {
             const auto& [p, q, g] = pairs[k];
-            observer.joins(p, corners[p].reflections, corners[p].x, corners[q].y, g > 0.0);
-            if (g > 0.0) use(p, q, corners[p].weight * (g / all));
+            observer.joins(p, edges[p].reflections, edges[p].x, edges[q].y, g > 0.0);
+            if (g > 0.0) use(p, q, edges[p].weight * (g / all));
         }
     }
 }

@@ -1,9 +1,9 @@
 // The continuation of a walk: how the direction of its next reflection is drawn, and with which density. Each is a class with
 //
-//     Place                       the result of place(x, wo, wanted) for a vertex, found for all walks before any
+//     VertexData                  the result of vertex_data(x, wo, wanted) for a vertex, found for all walks before any
 //                                 reflection to hide the latency of memory; `wanted` is the number of later bounces
 //                                 that have pictures
-//     at(side, place)             an object for this vertex with the two functions below
+//     at(side, data)              an object for this vertex with the two functions below
 //     sample(side, wo, sampler)   wi in the frame of side.p, its weight fs |cosθ| / density, and its pdf; pdf 0 ends the walk
 //     pdf(side, wo, wi, y)        the same pdf, for the weights of multiple importance sampling: the density, per solid
 //                                 angle, with which sample() draws wi and the walk then finds y, or a density used in
@@ -23,38 +23,39 @@
 
 namespace neumann {
 
-// The Place of continuations that do not depend on the vertex.
-struct Nowhere {};
+// The VertexData of continuations that do not depend on the vertex.
+struct NoVertexData {};
 
-// The Places of the vertices of some walks.
+// The VertexData of the vertices of some walks.
 template <class Continuation>
-class Places {
+class VertexDataOfWalks {
 public:
-    using Place = typename Continuation::Place;
+    using VertexData = typename Continuation::VertexData;
 
-    explicit Places(std::size_t walks) : place_(any ? walks : 0) {}
+    explicit VertexDataOfWalks(std::size_t walks) : data_(any ? walks : 0) {}
 
     void find(const Continuation& continuation, const Together<Walker>& walks, int wanted) {
         if constexpr (any)
-            for (const std::uint32_t i : walks.alive) place_[i] = continuation.place(walks.walker[i].x, walks.walker[i].wo, wanted);
+            for (const std::uint32_t i : walks.alive)
+                data_[i] = continuation.vertex_data(walks.walker[i].x, walks.walker[i].wo, wanted);
     }
-    Place operator[](std::size_t walk) const {
+    VertexData operator[](std::size_t walk) const {
         if constexpr (any)
-            return place_[walk];
+            return data_[walk];
         else
             return {};
     }
 
 private:
-    static constexpr bool any = !std::is_empty_v<Place>;
-    std::vector<Place> place_;
+    static constexpr bool any = !std::is_empty_v<VertexData>;
+    std::vector<VertexData> data_;
 };
 
 // The continuation that samples the BSDF.
 struct MaterialContinuation {
     static constexpr bool joins_points = false;
-    using Place = Nowhere;
-    const MaterialContinuation& at(const SurfaceSide&, Place) const { return *this; }
+    using VertexData = NoVertexData;
+    const MaterialContinuation& at(const SurfaceSide&, VertexData) const { return *this; }
 
     template <class Sampler>
     BsdfSample sample(const SurfaceSide& side, const Vec3& wo, Sampler& sampler) const {
@@ -71,8 +72,8 @@ struct MaterialContinuation {
 class SurfaceContinuation {
 public:
     static constexpr bool joins_points = true;
-    using Place = Nowhere;
-    const SurfaceContinuation& at(const SurfaceSide&, Place) const { return *this; }
+    using VertexData = NoVertexData;
+    const SurfaceContinuation& at(const SurfaceSide&, VertexData) const { return *this; }
 
     explicit SurfaceContinuation(const Geometry& geometry) : surfaces_(geometry) {}
 
@@ -102,8 +103,8 @@ private:
 // lights. Paths with several such reflections are missing, so the terms are too small.
 struct SpecularContinuation {
     static constexpr bool joins_points = false;
-    using Place = Nowhere;
-    const SpecularContinuation& at(const SurfaceSide&, Place) const { return *this; }
+    using VertexData = NoVertexData;
+    const SpecularContinuation& at(const SurfaceSide&, VertexData) const { return *this; }
 
     template <class Sampler>
     BsdfSample sample(const SurfaceSide& side, const Vec3& wo, Sampler& sampler) const {

@@ -1,6 +1,6 @@
 // R for eight walks at once where it is simple: at flat surfaces of constant diffuse reflectance, with light samples on surfaces
-// that shine evenly. The arithmetic is that of choose_question() (ask_light.h) and of Diffuse::sample(), in the same order, so the
-// results have the same bits. Walks are side by side in memory, so that compilers make vector instructions of it.
+// that shine evenly. The arithmetic is that of choose_light_sample() (shadow_rays.h) and of Diffuse::sample(), in the same order,
+// so the results have the same bits. Walks are side by side in memory, so that compilers make vector instructions of it.
 #pragma once
 
 #include "operators/paths/walk/direct_light.h"
@@ -13,7 +13,7 @@ public:
     static constexpr std::size_t size = 8;
 
     // Whether the light samples are points on surfaces that shine evenly.
-    static bool fits(const DirectLightSampler& direct) { return direct.asks_even_points(); }
+    static bool fits(const DirectLightSampler& direct) { return direct.samples_even_points(); }
     // The material on the side of w.x on which w.wo lies, if the surface is flat and the material diffuse and constant;
     // otherwise null.
     static const Diffuse* material(const Materials& materials, const Walker& w) {
@@ -34,8 +34,8 @@ public:
         normal_.set(j, front ? w.x.normal : -w.x.normal);
         cosine_[j] = front ? cosine : -cosine;
         x_.set(j, w.x.position);
-        const EvenPoint light = direct.ask_even_point(sampler.next2());
-        w.asked.y = light.point;
+        const EvenPoint light = direct.sample_even_point(sampler.next2());
+        w.shadow_ray.y = light.point;
         y_.set(j, light.point.position);
         normal_of_y_.set(j, light.point.normal);
         radiance_.set(j, light.radiance);
@@ -49,13 +49,13 @@ public:
         w.reflected = max_component(albedo);
         w.from = {w.x.position, front ? w.x.normal : -w.x.normal};
     }
-    // Reflects the walks that were added, and empties the packet. `directions` is as in choose_question().
+    // Reflects the walks that were added, and empties the packet. `directions` is as in choose_light_sample().
     void reflect(const DirectLightSampler& direct, double directions) {
         compute(directions, direct.is_weighted() ? directions : 0.0);  // against a pdf of 0 the weight is 1
         for (std::size_t j = 0; j < count_; ++j) {
             Walker& w = *walker_[j];
-            w.asked.value = value_[j];
-            w.asked.w = to_y_[j];
+            w.shadow_ray.value = value_[j];
+            w.shadow_ray.w = to_y_[j];
             w.beta = beta_[j];
             w.pdf = pdf_[j];
             w.w = next_[j];

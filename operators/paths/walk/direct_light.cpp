@@ -13,16 +13,16 @@ DirectLightSampler::DirectLightSampler(const Scene& scene, const DirectLightSett
     : emitters_(&scene.emitters),
       settings_(settings),
       lights_(scene.geometry, scene.emitters, settings.lights, settings.place),
-      questions_(scene.emitters.empty() || settings.direct == DirectLight::bsdf ? 0 : 1) {
-    if (questions_ > 0 && (settings.direct == DirectLight::light || settings.direct == DirectLight::mis))
-        questions_ = lights_.asks();
+      light_samples_(scene.emitters.empty() || settings.direct == DirectLight::bsdf ? 0 : 1) {
+    if (light_samples_ > 0 && (settings.direct == DirectLight::light || settings.direct == DirectLight::mis))
+        light_samples_ = lights_.samples_per_point();
     const bool by_power = settings.direct == DirectLight::mis && settings.heuristic == Heuristic::power;
-    asks_even_points_ = (by_power || settings.direct == DirectLight::light) && lights_.finds_even_points();
+    samples_even_points_ = (by_power || settings.direct == DirectLight::light) && lights_.finds_even_points();
     if (settings.direct == DirectLight::surfaces) surfaces_.emplace(scene.geometry);
 }
 
 // If the BSDF transmits, each hemisphere is chosen with probability 1/2.
-LightQuestion DirectLightSampler::ask_direction(const SurfaceSide& side, const Vec2& u, double which_side) const {
+LightSample DirectLightSampler::sample_direction(const SurfaceSide& side, const Vec2& u, double which_side) const {
     const bool cosine = settings_.direct == DirectLight::cosine, both = transmits(*side.bsdf);
     Vec3 local = cosine ? cosine_hemisphere(u) : uniform_hemisphere(u);
     const double pdf = (cosine ? local.z * inv_pi : 0.5 * inv_pi) * (both ? 0.5 : 1.0);
@@ -30,17 +30,17 @@ LightQuestion DirectLightSampler::ask_direction(const SurfaceSide& side, const V
     return {{}, side.p.frame.to_world(local), Rgb(pdf > 0.0 ? 1.0 / pdf : 0.0), pdf};
 }
 
-LightQuestion DirectLightSampler::ask_surface(const SurfacePoint& x, double choice, const Vec2& u) const {
-    LightQuestion q;
-    q.point = surfaces_->sample(choice, u);
-    const Vec3 d = q.point.position - x.position;
+LightSample DirectLightSampler::sample_surface(const SurfacePoint& x, double choice, const Vec2& u) const {
+    LightSample light;
+    light.point = surfaces_->sample(choice, u);
+    const Vec3 d = light.point.position - x.position;
     const double distance2 = glm::dot(d, d);
-    q.w = d * (1.0 / std::sqrt(distance2));
-    const double cosine = std::abs(glm::dot(q.point.normal, q.w));
-    if (!(cosine > 0.0)) return q;
-    q.pdf = distance2 / (cosine * surfaces_->area());
-    q.weight = emitters_->emitted(q.point, -q.w) / q.pdf;
-    return q;
+    light.w = d * (1.0 / std::sqrt(distance2));
+    const double cosine = std::abs(glm::dot(light.point.normal, light.w));
+    if (!(cosine > 0.0)) return light;
+    light.pdf = distance2 / (cosine * surfaces_->area());
+    light.weight = emitters_->emitted(light.point, -light.w) / light.pdf;
+    return light;
 }
 
 }  // namespace neumann

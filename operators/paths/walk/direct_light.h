@@ -14,42 +14,43 @@ namespace neumann {
 // Whether the strategy cannot find some light: no ray meets a light without extent, and points on surfaces miss an environment.
 bool misses_light(DirectLight direct, const Emitters& emitters);
 
-// A light sample before its shadow ray is cast. The ray finds whether `point` is visible or, if directions are sampled, what is
-// visible along `w`. `weight` is Le / pdf of a point, or 1 / pdf of a direction, which multiplies the Le that is found.
-using LightQuestion = LightSample;
-
 class DirectLightSampler {
 public:
     DirectLightSampler(const Scene& scene, const DirectLightSettings& settings);
 
     // The number of light samples at a vertex, besides the BSDF's direction; their contributions add up.
-    std::size_t questions() const { return questions_; }
-    bool asks_directions() const { return settings_.direct == DirectLight::hemisphere || settings_.direct == DirectLight::cosine; }
+    std::size_t light_samples() const { return light_samples_; }
+    bool samples_directions() const {
+        return settings_.direct == DirectLight::hemisphere || settings_.direct == DirectLight::cosine;
+    }
     // Whether light that the BSDF's direction hits counts.
     bool counts_what_is_hit() const { return settings_.direct == DirectLight::bsdf || settings_.direct == DirectLight::mis; }
 
+    // A light sample before its shadow ray is cast. The ray finds whether `point` is visible or, if directions are sampled, what is
+    // visible along `w`. `weight` is Le / pdf of a point, or 1 / pdf of a direction, which multiplies the Le that is found.
     template <class Sampler>
-    LightQuestion ask(const SurfaceSide& side, Sampler& sampler, std::size_t question) const {
+    LightSample sample(const SurfaceSide& side, Sampler& sampler, std::size_t number) const {
         switch (settings_.direct) {
             case DirectLight::hemisphere:
             case DirectLight::cosine: {
                 const Vec2 u = sampler.next2();
-                return ask_direction(side, u, transmits(*side.bsdf) ? sampler.next() : 0.0);
+                return sample_direction(side, u, transmits(*side.bsdf) ? sampler.next() : 0.0);
             }
             case DirectLight::surfaces: {
                 const double choice = sampler.next();
-                return ask_surface(side.p, choice, sampler.next2());
+                return sample_surface(side.p, choice, sampler.next2());
             }
             default:
-                return lights_.sample(receiver(side), sampler.next2(), question);
+                return lights_.sample(receiver(side), sampler.next2(), number);
         }
     }
-    // Whether ask() finds points on surfaces that shine evenly, independently of the vertex; ask_even_point() samples such a point.
-    bool asks_even_points() const { return asks_even_points_; }
-    EvenPoint ask_even_point(const Vec2& u) const { return lights_.sample_even_point(u); }
+    // Whether sample() finds points on surfaces that shine evenly, independently of the vertex; sample_even_point() samples such a
+    // point.
+    bool samples_even_points() const { return samples_even_points_; }
+    EvenPoint sample_even_point(const Vec2& u) const { return lights_.sample_even_point(u); }
     // The MIS weights of a light sample, and of light that the BSDF's direction has hit at y. `pdf_of_material` is that
     // of this direction, per solid angle.
-    double weight_of_answer(double pdf, double pdf_of_material) const {
+    double weight_of_light_sample(double pdf, double pdf_of_material) const {
         return settings_.direct == DirectLight::mis ? heuristic(settings_.heuristic, pdf, pdf_of_material) : 1.0;
     }
     double weight_of_hit(double pdf_of_material, const Receiver& x, const Vec3& w, const SurfacePoint& y) const {
@@ -58,15 +59,15 @@ public:
     bool is_weighted() const { return settings_.direct == DirectLight::mis; }
 
 private:
-    LightQuestion ask_direction(const SurfaceSide& side, const Vec2& u, double which_side) const;
-    LightQuestion ask_surface(const SurfacePoint& x, double choice, const Vec2& u) const;
+    LightSample sample_direction(const SurfaceSide& side, const Vec2& u, double which_side) const;
+    LightSample sample_surface(const SurfacePoint& x, double choice, const Vec2& u) const;
 
     const Emitters* emitters_;
     DirectLightSettings settings_;
     LightSampler lights_;
     std::optional<AreaSampler> surfaces_;
-    std::size_t questions_;
-    bool asks_even_points_;
+    std::size_t light_samples_;
+    bool samples_even_points_;
 };
 
 }  // namespace neumann

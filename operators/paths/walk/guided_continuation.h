@@ -33,11 +33,11 @@ public:
         BsdfSample sample(const SurfaceSide& side, const Vec3& wo, Sampler& sampler) const {
             const Vec2 u = sampler.next2();
             if (!table_) return neumann::sample(*side.bsdf, side.p, wo, u);
-            const CellDistribution::Place place = table_->sample(u);
-            BsdfSample sampled = neumann::sample(*side.bsdf, side.p, wo, place.u);
+            const CellDistribution::CellSample cell = table_->sample(u);
+            BsdfSample sampled = neumann::sample(*side.bsdf, side.p, wo, cell.u);
             const Vec3 w = sampled.wi;
             sampled.wi = Vec3(s_ * w.x + t_ * w.y, w.z);
-            sampled.weight *= place.inverse_density;
+            sampled.weight *= cell.inverse_density;
             return sampled;
         }
         // The BSDF's pdf, not the density of sample(). It only enters the MIS weights, which stay unbiased for any pdf used
@@ -51,12 +51,12 @@ public:
         Vec2 s_{1.0, 0.0}, t_{0.0, 1.0};  // rotation from the table's tangents to those of the shading frame
     };
 
-    using Place = const CellDistribution*;
-    Place place(const SurfacePoint& x, const Vec3& wo, int wanted) const {
+    using VertexData = const CellDistribution*;
+    VertexData vertex_data(const SurfacePoint& x, const Vec3& wo, int wanted) const {
         const CellDistribution* t = wanted == 0 ? nullptr : guide_->tables().at(x, wo, wanted);
         return t;
     }
-    Vertex at(const SurfaceSide& side, Place table) const {
+    Vertex at(const SurfaceSide& side, VertexData table) const {
         if (!table || !std::holds_alternative<Diffuse>(*side.bsdf)) return {};
         return {table, side.p.frame};
     }

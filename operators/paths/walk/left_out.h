@@ -1,5 +1,5 @@
 // Work that walks leave out because the plan (operators/render/plan) has shown that it does not change the expected
-// picture. Except for `questions`, the picture has the same bits. By default nothing is left out.
+// picture. Except for `light_samples`, the picture has the same bits. By default nothing is left out.
 #pragma once
 
 #include "core/geometry/surface_point.h"
@@ -14,7 +14,7 @@ struct LeftOut {
     // No ray can hit a light: the ray after the last reflection is needed only for the rest.
     bool rays_for_light = false;
     // BSDF sampling alone finds the light, which is the same everywhere: multiple importance sampling takes no light samples.
-    bool questions = false;
+    bool light_samples = false;
 };
 
 // Whether x and y on the boundary of a convex body certainly see each other: they are not in one plane, by more than

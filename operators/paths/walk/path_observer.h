@@ -10,19 +10,19 @@ namespace neumann {
 // A ray that a path has cast, and what it found.
 struct PathStep {
     enum class Kind {
-        first,    // from the camera or from a light
-        goes_on,  // after a reflection
-        record,   // from a record of a cache
-        asks      // a shadow ray to a light, the other subpath, the lens or a shared point, or a ray in a direction sampled
-                  // for direct light
+        first,      // from the camera or from a light
+        goes_on,    // after a reflection
+        record,     // from a record of a cache
+        shadow_ray  // a shadow ray to a light, the other subpath, the lens or a shared point, or a ray in a direction sampled
+                    // for direct light
     };
     Kind kind = Kind::first;
     bool from_light = false;  // part of the subpath from a light
-    int bounce = 0;           // number of reflections before the ray; for `asks`, including the one at its start
+    int bounce = 0;           // number of reflections before the ray; for `shadow_ray`, including the one at its start
     SurfacePoint from;        // for a first ray from the camera, only the position is set
     Vec3 w{0.0};              // unit length
     double pdf = 0.0;         // pdf of w after a reflection, per solid angle, or delta_pdf; otherwise 0
-    Rgb beta{0.0};            // throughput along the ray, or power of a path from a light; 0 for `asks`
+    Rgb beta{0.0};            // throughput along the ray, or power of a path from a light; 0 for `shadow_ray`
     bool found = false;       // the ray hits something, or the point is visible
     SurfacePoint to;          // the hit, or the point
     bool is_shared = false;   // the point is one that paths of several pixels use, for this bounce and later ones

@@ -5,9 +5,9 @@
 #pragma once
 
 #include "core/base/hot.h"
-#include "operators/paths/walk/ask_light.h"
 #include "operators/paths/walk/continuation.h"
 #include "operators/paths/walk/observer.h"
+#include "operators/paths/walk/shadow_rays.h"
 #include "operators/paths/walk/walk_settings.h"
 
 #include <algorithm>
@@ -36,22 +36,23 @@ NEUMANN_HOT void plain_walk(const Scene& scene, const DirectLightSampler& direct
         branches(bounce);
         walkers.reads.resize(walkers.walker.size());
         // R samples the lights and, along with the last light sample, the next direction.
-        const std::size_t questions = std::max<std::size_t>(direct.questions(), 1);
-        for (std::size_t question = 1; question <= questions; ++question) {
+        const std::size_t light_samples = std::max<std::size_t>(direct.light_samples(), 1);
+        for (std::size_t light_sample = 1; light_sample <= light_samples; ++light_sample) {
             walkers.keep_if([&](Walker& w, std::uint32_t i) {
                 const SurfaceSide side = scene.materials.side(w.x, w.wo);
                 if (!side.bsdf) return false;
                 const Vec3 wo = side.p.frame.to_local(w.wo);
-                if (question == 1) walkers.reads[i] = !ending.is_last(bounce) && reads(i, w, side, bounce);
-                w.asked.value = Rgb(0.0);
-                if (direct.questions() > 0)
-                    choose_question(direct, question % questions, MaterialContinuation(), 1.0, side, wo, samplers[i], w);
-                if (question < questions) return true;
+                if (light_sample == 1) walkers.reads[i] = !ending.is_last(bounce) && reads(i, w, side, bounce);
+                w.shadow_ray.value = Rgb(0.0);
+                if (direct.light_samples() > 0)
+                    choose_light_sample(direct, light_sample % light_samples, MaterialContinuation(), 1.0, side, wo, samplers[i],
+                                        w);
+                if (light_sample < light_samples) return true;
                 w.leave(side, MaterialContinuation().sample(side, wo, samplers[i]));
                 return true;
             });
-            rays[q] += answer(scene, T, direct, LeftOut(), bounce, walkers, observer,
-                              [&](std::uint32_t i, const Rgb& light) { find(i, q, light); });
+            rays[q] += cast_shadow_rays(scene, T, direct, LeftOut(), bounce, walkers, observer,
+                                        [&](std::uint32_t i, const Rgb& light) { find(i, q, light); });
         }
         walkers.keep_if([&](Walker& w, std::uint32_t i) {
             if (w.pdf != 0.0 && !is_black(w.beta) && ending.live(bounce, w, w.reflected, samplers[i])) return true;

@@ -41,8 +41,8 @@ struct Together {
 
     // Moves each path to its next point, packet by packet, and then does keep_if(f). ask(k, n, point) finds the next points of
     // alive[k … k + n), writes them to point(j), and returns a bit mask of those found; the others move to infinity.
-    template <class Observer, class Ask, class Keep>
-    void advance(int reflections, const Observer& observer, const Ask& ask, const Keep& f) {
+    template <class Observer, class FindNext, class Keep>
+    void advance(int reflections, const Observer& observer, const FindNext& find_next, const Keep& f) {
         constexpr std::size_t packet = RayCaster::packet_size;
         Walker* const all = walker.data();
         std::uint32_t* const live = alive.data();
@@ -50,7 +50,7 @@ struct Together {
         for (std::size_t k = 0, count = alive.size(); k < count; k += packet) {
             const std::size_t n = std::min(packet, count - k);
             for (std::size_t j = 0; j < n; ++j) observer.casts(live[k + j], Walker::from_light, reflections, all[live[k + j]]);
-            const std::uint32_t found = ask(k, n, [&](std::size_t j) -> SurfacePoint& { return all[live[k + j]].x; });
+            const std::uint32_t found = find_next(k, n, [&](std::size_t j) -> SurfacePoint& { return all[live[k + j]].x; });
             for (std::size_t j = 0; j < n; ++j) {
                 const std::uint32_t i = live[k + j];
                 if (!(found >> j & 1u)) all[i].x.shape = SurfacePoint::infinity;
@@ -61,7 +61,7 @@ struct Together {
         }
         alive.resize(kept);
     }
-    // An `ask` for advance() that finds the first hits from x along w, which is T.
+    // A `find_next` for advance() that finds the first hits from x along w, which is T.
     template <class Transport, class HitAt>
     std::uint32_t first_hits(const Transport& T, std::size_t k, std::size_t n, const HitAt& hit) const {
         return T.first_hits(

@@ -10,13 +10,13 @@
 namespace neumann {
 
 // pair(k) returns references to the k-th pair; answer(k, seen) is called in order of k.
-template <class Transport, class PairAt, class Answer>
-void ask_visibility(const Transport& T, std::size_t count, RayCaster::Rays kind, const PairAt& pair, const Answer& answer) {
+template <class Transport, class PairAt, class Found>
+void test_visibility(const Transport& T, std::size_t count, RayCaster::Rays kind, const PairAt& pair, const Found& found) {
     for (std::size_t k = 0; k < count; k += RayCaster::packet_size) {
         const std::size_t n = std::min(RayCaster::packet_size, count - k);
         const std::uint32_t seen = T.visible(
             n, [&](std::size_t j) { return pair(k + j); }, kind);
-        for (std::size_t j = 0; j < n; ++j) answer(k + j, (seen >> j & 1u) != 0);
+        for (std::size_t j = 0; j < n; ++j) found(k + j, (seen >> j & 1u) != 0);
     }
 }
 

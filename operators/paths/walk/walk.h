@@ -5,16 +5,16 @@
 //
 // The directions are sampled from the BSDF, or by another continuation (continuation.h).
 //
-// The last reflection may instead sample the lights (ask_light.h), or do both. After a mirror only the direction can find a light,
-// and what it finds has weight 1 whatever the strategy.
+// The last reflection may instead sample the lights (shadow_rays.h), or do both. After a mirror only the direction can find a
+// light, and what it finds has weight 1 whatever the strategy.
 #pragma once
 
 #include "core/base/hot.h"
-#include "operators/paths/walk/ask_light.h"
 #include "operators/paths/walk/continuation.h"
 #include "operators/paths/walk/diffuse_packet.h"
 #include "operators/paths/walk/first_vertices.h"
 #include "operators/paths/walk/observer.h"
+#include "operators/paths/walk/shadow_rays.h"
 #include "operators/paths/walk/term_samples.h"
 #include "operators/paths/walk/walk_settings.h"
 
@@ -43,7 +43,7 @@ NEUMANN_HOT void walk_on(const Scene& scene, const Transport& T, const DirectLig
 
     DiffusePacket packet;
     const Split& split = settings.split;
-    Places<Continuation> places(walkers.walker.size());
+    VertexDataOfWalks<Continuation> vertex_data(walkers.walker.size());
     if constexpr (Continuation::joins_points) walkers.next.resize(walkers.walker.size());
     if (split.walks > 1) walkers.remember_first();
     share = 1.0 / split.walks;
@@ -54,22 +54,22 @@ NEUMANN_HOT void walk_on(const Scene& scene, const Transport& T, const DirectLig
         for (int bounce = 1; ending.reach(bounce, walkers, samplers, out.given_up); ++bounce) {
             const auto q = static_cast<std::size_t>(std::min(bounce, N + 1));
             const bool first = bounce == 1, wants_light_only = ending.is_last(bounce);
-            const double directions_per_question = first ? static_cast<double>(split.walks) / split.lights : 1.0;
-            const std::size_t questions = direct.questions() * static_cast<std::size_t>(!first ? 1 : copy == 0 ? split.lights : 0);
-            places.find(continuation, walkers, std::max(N - bounce, 0));
+            const double directions_per_light_sample = first ? static_cast<double>(split.walks) / split.lights : 1.0;
+            const std::size_t light_samples = direct.light_samples() * std::size_t(!first ? 1 : copy == 0 ? split.lights : 0);
+            vertex_data.find(continuation, walkers, std::max(N - bounce, 0));
 
             // R samples the lights and, along with the last light sample, the next direction. T finds which light
             // samples are visible.
-            for (std::size_t question = 1; question <= std::max<std::size_t>(questions, 1); ++question) {
+            for (std::size_t light_sample = 1; light_sample <= std::max<std::size_t>(light_samples, 1); ++light_sample) {
                 const auto reflect = [&](Walker& w, std::uint32_t i) {
                     const SurfaceSide side = scene.materials.side(w.x, w.wo);
                     if (!side.bsdf) return false;
                     const Vec3 wo = side.p.frame.to_local(w.wo);
-                    const auto& distribution = continuation.at(side, places[i]);
-                    if (questions > 0)
-                        choose_question(direct, question % direct.questions(), distribution, directions_per_question, side, wo,
-                                        samplers[i], w);
-                    if (question < questions) return true;
+                    const auto& distribution = continuation.at(side, vertex_data[i]);
+                    if (light_samples > 0)
+                        choose_light_sample(direct, light_sample % direct.light_samples(), distribution,
+                                            directions_per_light_sample, side, wo, samplers[i], w);
+                    if (light_sample < light_samples) return true;
                     BsdfSample sampled;
                     if constexpr (Continuation::joins_points)
                         sampled = distribution.sample(side, wo, samplers[i], walkers.next[i]);
@@ -78,21 +78,21 @@ NEUMANN_HOT void walk_on(const Scene& scene, const Transport& T, const DirectLig
                     w.leave(side, sampled);
                     return true;
                 };
-                if (std::is_same_v<Continuation, MaterialContinuation> && questions == 1 && DiffusePacket::fits(direct)) {
+                if (std::is_same_v<Continuation, MaterialContinuation> && light_samples == 1 && DiffusePacket::fits(direct)) {
                     walkers.keep_if([&](Walker& w, std::uint32_t i) {
                         const Diffuse* const material = DiffusePacket::material(scene.materials, w);
                         if (!material) return reflect(w, i);
                         packet.add(w, *material, direct, samplers[i]);
-                        if (packet.is_full()) packet.reflect(direct, directions_per_question);
+                        if (packet.is_full()) packet.reflect(direct, directions_per_light_sample);
                         return true;
                     });
-                    packet.reflect(direct, directions_per_question);
+                    packet.reflect(direct, directions_per_light_sample);
                 } else {
                     walkers.keep_if(reflect);
                 }
-                if (questions > 0)
-                    out.rays[q] += answer(scene, T, direct, left_out, bounce, walkers, observer,
-                                          [&](std::uint32_t i, const Rgb& light) { find(i, q, light); });
+                if (light_samples > 0)
+                    out.rays[q] += cast_shadow_rays(scene, T, direct, left_out, bounce, walkers, observer,
+                                                    [&](std::uint32_t i, const Rgb& light) { find(i, q, light); });
             }
 
             // Keeps the walks whose ray is needed: for this bounce's light, for a further bounce, or for the rest.
@@ -118,7 +118,7 @@ NEUMANN_HOT void walk_on(const Scene& scene, const Transport& T, const DirectLig
                 if ((direct.counts_what_is_hit() || w.pdf == delta_pdf) && emitters.is_emitter(w.x.shape)) {
                     const Rgb emitted = emitters.emitted(w.x, w.wo);
                     if (!is_black(emitted))
-                        find(i, q, w.beta * emitted * direct.weight_of_hit(w.pdf * directions_per_question, w.from, w.w, w.x));
+                        find(i, q, w.beta * emitted * direct.weight_of_hit(w.pdf * directions_per_light_sample, w.from, w.w, w.x));
                 }
                 return !w.x.is_infinite();
             });

@@ -11,7 +11,7 @@
 namespace neumann {
 
 // The light sample of a walk before its ray is cast: to y, or along w.
-struct AskedLight {
+struct ShadowRay {
     SurfacePoint y;
     Vec3 w;
     Rgb value;  // the contribution if y is seen, or the weight of the Le seen along w; black if no ray is needed
@@ -22,7 +22,7 @@ struct Walker : PathEnd {
     Vec3 wo;                 // towards the previous vertex
     Receiver from;           // the previous vertex
     double reflected = 0.0;  // largest channel of the last reflection's weight
-    AskedLight asked;
+    ShadowRay shadow_ray;
 
     // Leaves the vertex in the direction that R has sampled.
     void leave(const SurfaceSide& side, const BsdfSample& sampled) {
@@ -36,10 +36,10 @@ struct Walker : PathEnd {
 
 // The work space of walk(), kept between calls.
 struct Walkers : Together<Walker> {
-    std::vector<std::uint32_t> asking;  // walks whose light sample needs a ray
-    std::vector<SurfacePoint> next;     // the next vertex of each walk, if the continuation joins points
+    std::vector<std::uint32_t> with_shadow_ray;  // walks whose light sample needs a ray
+    std::vector<SurfacePoint> next;              // the next vertex of each walk, if the continuation joins points
 
-    // An `ask` for advance() that moves walks to their `next` vertices if these are visible.
+    // A `find_next` for advance() that moves walks to their `next` vertices if these are visible.
     template <class Transport, class HitAt>
     std::uint32_t join_next(const Transport& T, std::size_t k, std::size_t n, const HitAt& hit) const {
         const std::uint32_t seen = T.visible(

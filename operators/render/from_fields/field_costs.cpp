@@ -17,7 +17,7 @@ void FieldCosts::Line::add(double more_work, double took) {
 }
 
 double FieldCosts::scale(const FieldSettings& settings) const {
-    return static_cast<double>(settings.patching.patches) / static_cast<double>(asked_);
+    return static_cast<double>(settings.patching.patches) / static_cast<double>(requested_);
 }
 
 // The number of rays of T: at least one per cell of directions.
@@ -32,7 +32,7 @@ void FieldCosts::add(const FieldSettings& settings, const FieldPictures& picture
     patches_ = pictures.patches;
     unknowns_ = pictures.unknowns;
     has_links_ = pictures.has_links;
-    asked_ = settings.patching.patches;
+    requested_ = settings.patching.patches;
     fields_.add(table(settings), pictures.field_seconds);
     pictures_.add(settings.samples, pictures.picture_seconds);
     other_ = std::max(seconds - pictures.field_seconds - pictures.picture_seconds, 0.0);

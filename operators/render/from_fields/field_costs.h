@@ -33,8 +33,8 @@ private:
 
     const Film* film_;
     std::map<std::uint32_t, std::size_t> sides_;
-    // Numbers of the last render; `asked_`: the patches in its settings.
-    std::size_t patches_ = 0, asked_ = 0, unknowns_ = 0;
+    // Numbers of the last render; `requested_`: the patches in its settings.
+    std::size_t patches_ = 0, requested_ = 0, unknowns_ = 0;
     bool has_links_ = false;
     Line fields_, pictures_;
     double other_ = 0.0;

@@ -35,37 +35,37 @@ FieldGather::FieldGather(const Scene& scene, const PixelLights& lights, std::siz
 NEUMANN_HOT std::uint64_t FieldGather::add(const FieldPair& fields, std::span<const PixelRay> seen) const {
     std::uint64_t rays = 0;
     std::vector<double> arriving(stride_);
-    std::vector<PixelRay> asking;
+    std::vector<PixelRay> active;
     for (std::uint32_t r = 0; r < rays_; ++r) {
-        asking.clear();
+        active.clear();
         for (const PixelRay& look : seen) {
             if (r > 0 && look.takes_all) continue;  // all its rays would be the same
-            PixelRay& l = asking.emplace_back(look);
+            PixelRay& l = active.emplace_back(look);
             l.goes_on = true;
             l.through = Rgb(l.sample->weight / l.rays(rays_));
             l.compared_part = l.takes_all ? 1.0 : static_cast<double>(rays_) / compared_;
         }
         for (;;) {
-            rays += ask_lights_at_links(asking, fields);
-            choose_directions(asking, r);
-            if (asking.empty()) break;
-            rays += asking.size();
-            for (PixelRay& l : asking) l.goes_on = false;
+            rays += sample_lights_at_links(active, fields);
+            choose_directions(active, r);
+            if (active.empty()) break;
+            rays += active.size();
+            for (PixelRay& l : active) l.goes_on = false;
             for_hits(
-                scene_.geometry, asking.size(),
-                [&](std::size_t i) { return std::pair<const SurfacePoint&, const Vec3&>(asking[i].x, asking[i].wi); },
-                [&](std::size_t i) -> SurfacePoint& { return asking[i].y; },
-                [&](std::size_t i) { read_or_go_on(asking[i], fields, r < compared_, arriving); });
+                scene_.geometry, active.size(),
+                [&](std::size_t i) { return std::pair<const SurfacePoint&, const Vec3&>(active[i].x, active[i].wi); },
+                [&](std::size_t i) -> SurfacePoint& { return active[i].y; },
+                [&](std::size_t i) { read_or_go_on(active[i], fields, r < compared_, arriving); });
         }
     }
     return rays;
 }
 
-std::uint64_t FieldGather::ask_lights_at_links(std::span<PixelRay> seen, const FieldPair& fields) const {
-    std::vector<PixelRay*> asking;
+std::uint64_t FieldGather::sample_lights_at_links(std::span<PixelRay> seen, const FieldPair& fields) const {
+    std::vector<PixelRay*> active;
     for (PixelRay& l : seen)
-        if (l.goes_on && l.links > 0 && !leaves_out_links(l, fields) && !has_few_directions(*l.bsdf)) asking.push_back(&l);
-    return lights_.find_at_links(asking);
+        if (l.goes_on && l.links > 0 && !leaves_out_links(l, fields) && !has_few_directions(*l.bsdf)) active.push_back(&l);
+    return lights_.find_at_links(active);
 }
 
 // Chooses directions for the rays that go on and removes the others.
@@ -113,7 +113,7 @@ void FieldGather::read_or_go_on(PixelRay& l, const FieldPair& fields, bool compa
         return;
     }
     if (!has_unknown) return;
-    const Patches::Place place = space.patches().place(l.y);
+    const Patches::ChartPosition place = space.patches().place(l.y);
     const bool reads_raster = !l.diffuse && fields.by_links && bsdf && !is_glossy(bsdf);
     LinkRaster::Reading by_links;
     if (reads_raster)
@@ -130,8 +130,8 @@ void FieldGather::read_or_go_on(PixelRay& l, const FieldPair& fields, bool compa
 
 // Sets `arriving`: bounce i is K times bounce i − 1 of the field, and the rest is K times the sum of its bounce N and
 // rest. `by_links` is added to the field in the place of `replaced`.
-void FieldGather::arrive(const FieldStack& field, const PixelRay& l, const Patches::Place& place, const FieldStack* replaced,
-                         std::span<const float> by_links, std::vector<double>& arriving) const {
+void FieldGather::arrive(const FieldStack& field, const PixelRay& l, const Patches::ChartPosition& place,
+                         const FieldStack* replaced, std::span<const float> by_links, std::vector<double>& arriving) const {
     const std::size_t rest = stride_ - 3;
     std::fill(arriving.begin(), arriving.end(), 0.0);
     // Linear interpolation between the centres of patches does not preserve their means and would lose up to some percent of a

@@ -26,10 +26,10 @@ public:
     std::uint64_t add(const FieldPair& fields, std::span<const PixelRay> seen) const;
 
 private:
-    std::uint64_t ask_lights_at_links(std::span<PixelRay> seen, const FieldPair& fields) const;
+    std::uint64_t sample_lights_at_links(std::span<PixelRay> seen, const FieldPair& fields) const;
     void choose_directions(std::vector<PixelRay>& seen, std::uint32_t ray) const;
     void read_or_go_on(PixelRay& l, const FieldPair& fields, bool compares, std::vector<double>& arriving) const;
-    void arrive(const FieldStack& field, const PixelRay& l, const Patches::Place& place, const FieldStack* replaced,
+    void arrive(const FieldStack& field, const PixelRay& l, const Patches::ChartPosition& place, const FieldStack* replaced,
                 std::span<const float> by_links, std::vector<double>& arriving) const;
 
     const Scene& scene_;

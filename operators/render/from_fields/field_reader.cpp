@@ -96,7 +96,7 @@ void FieldReader::add_interpolated(const FieldPair& fields, std::span<const Pixe
         double* difference = nullptr;
         for (; end < seen.size() && seen[end].sample->values == values; ++end) {
             const PixelRay& l = seen[end];
-            const Patches::Place place = fields.fine.space().patches().place(l.x);
+            const Patches::ChartPosition place = fields.fine.space().patches().place(l.x);
             const double weight = l.sample->weight, of_difference = weight * l.sample->difference_weight;
             const bool compared = l.sample->difference;
             of_fine.add(fine.space().read(l.x, place, l.wo), weight, compared ? of_difference : 0.0);

@@ -40,8 +40,8 @@ Glossy glossy_of(const FieldSettings& settings, const Scene& scene) {
 
 // `processes`: the number of processes that share the rays.
 PatchSpace patches_of(const FieldSettings& settings, const Scene& scene, int processes) {
-    const auto asked = static_cast<double>(settings.patching.patches);
-    check_field_memory(settings, scene.film, {asked, asked, asked * settings.rays / processes});
+    const auto requested = static_cast<double>(settings.patching.patches);
+    check_field_memory(settings, scene.film, {requested, requested, requested * settings.rays / processes});
     const Glossy glossy = glossy_of(settings, scene);
     PatchSpace space = scene_patches(scene, settings.patching, glossy);
     check_camera(scene);
@@ -199,7 +199,7 @@ private:
         pictures_.add_by_groups(pixels_.group());
         take_groups(0, groups_);
         has_taken_all_ = true;
-        tell_which_are_read();
+        share_which_are_read();
         const SharedPixels shared(groups_, processes_);
         for (std::uint32_t round = 0; round < shared.rounds(); ++round) {
             const auto [own_begin, own_end] = shared.own(round);
@@ -261,7 +261,7 @@ private:
         }
     }
 
-    void tell_which_are_read() {
+    void share_which_are_read() {
         if (!processes_) return;
         std::vector<double> read(read_.begin(), read_.end());
         rows_.sum(read);

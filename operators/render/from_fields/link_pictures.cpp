@@ -14,12 +14,12 @@ constexpr std::uint64_t link_stream = 0x73706c617473ull, lens_stream = 0x6c656e7
 // The approximate number of paths that the raster takes.
 constexpr double most_ends = 2e6;
 
-struct Found {
-    struct Share {
+struct PartOfLinks {
+    struct Contribution {
         std::size_t place;
         Rgb value;
     };
-    std::vector<Share> shares;
+    std::vector<Contribution> shares;
     std::vector<LinkRaster::End> ends;
     std::uint64_t rays = 0;
 
@@ -28,8 +28,8 @@ struct Found {
         to.numbers(ends);
         to.number(rays);
     }
-    static Found unpacked(UnpackedNumbers& from) {
-        return {from.numbers<Share>(), from.numbers<LinkRaster::End>(), from.number<std::uint64_t>()};
+    static PartOfLinks unpacked(UnpackedNumbers& from) {
+        return {from.numbers<Contribution>(), from.numbers<LinkRaster::End>(), from.number<std::uint64_t>()};
     }
 };
 
@@ -54,9 +54,9 @@ public:
                             LinkRaster(patches_, {}, 0)};
         std::vector<LinkRaster::End> ends;
         light_.for_parts([&](std::size_t part) { return trace(part); },
-                         [&](const Found& found) {
+                         [&](const PartOfLinks& found) {
                              result.rays += found.rays;
-                             for (const Found::Share& share : found.shares) result.picture[share.place] += share.value;
+                             for (const PartOfLinks::Contribution& share : found.shares) result.picture[share.place] += share.value;
                              ends.insert(ends.end(), found.ends.begin(), found.ends.end());
                          },
                          watch, &rows_);
@@ -65,8 +65,8 @@ public:
     }
 
 private:
-    Found trace(std::size_t part) const {
-        Found found;
+    PartOfLinks trace(std::size_t part) const {
+        PartOfLinks found;
         Sampler sampler(seed_, static_cast<std::uint32_t>(part));
         std::uint64_t paths = 0, to_lens = 0;
         found.rays = light_.trace(part, {}, [&](const LinkArrival& a) {
@@ -74,7 +74,7 @@ private:
             if (!is_diffuse(scene_.materials.side(a.x, a.wi))) return;
             sampler.start(paths++);
             if (sampler.next() < kept_) {
-                const Patches::Place place = patches_.place(a.x);
+                const Patches::ChartPosition place = patches_.place(a.x);
                 found.ends.emplace_back(place.chart, glm::dot(a.x.normal, a.wi) > 0.0,
                                         LinkRaster::spread(patches_.charts()[place.chart], place.st),
                                         static_cast<std::uint32_t>(bounce), a.power / (kept_ * a.index * a.index));

@@ -35,78 +35,78 @@ std::uint64_t PixelLights::find(std::span<PixelRay> rays) const { return find_by
 
 std::uint64_t PixelLights::find_by_points(std::span<PixelRay> rays) const {
     if (lights_.empty()) return 0;
-    std::vector<PixelRay*> asking;
+    std::vector<PixelRay*> active;
     for (PixelRay& l : rays)
-        if (ask(l, *l.sample->sampler, Rgb(l.sample->weight), asks_chance(l))) asking.push_back(&l);
-    add_visible(asking);
-    return asking.size();
+        if (sample_light(l, *l.sample->sampler, Rgb(l.sample->weight), samples_directions(l))) active.push_back(&l);
+    add_visible(active);
+    return active.size();
 }
 
 std::uint64_t PixelLights::find_at_links(std::span<PixelRay* const> rays) const {
     if (lights_.empty()) return 0;
-    std::vector<PixelRay*> asking;
+    std::vector<PixelRay*> active;
     for (PixelRay* l : rays)
-        if (ask(*l, *l->sample->gather_sampler, l->through / (l->index * l->index), true)) asking.push_back(l);
-    add_visible(asking);
-    return asking.size();
+        if (sample_light(*l, *l->sample->gather_sampler, l->through / (l->index * l->index), true)) active.push_back(l);
+    add_visible(active);
+    return active.size();
 }
 
 // Chooses a point on a light and sets y and the weight of its contribution; false if it contributes nothing.
-bool PixelLights::ask(PixelRay& l, Sampler& sampler, const Rgb& scale, bool asks_directions_too) const {
+bool PixelLights::sample_light(PixelRay& l, Sampler& sampler, const Rgb& scale, bool with_directions) const {
     const LightSample light = lights_.sample(l.x.position, sampler.next2());
     if (!(light.pdf > 0.0)) return false;
     const SurfaceSide side = scene_.materials.side(l.x, l.wo);
     if (!side.bsdf) return false;
     const Vec3 wo = side.p.frame.to_local(l.wo), wi = side.p.frame.to_local(light.w);
-    const double pdf_other = asks_directions_too ? neumann::pdf(*side.bsdf, side.p, wo, wi) : 0.0;
+    const double pdf_other = with_directions ? neumann::pdf(*side.bsdf, side.p, wo, wi) : 0.0;
     l.weight = eval(*side.bsdf, side.p, wo, wi) * light.weight * scale * (std::abs(wi.z) * power_heuristic(light.pdf, pdf_other));
     l.y = light.point;
     return !is_black(l.weight);
 }
 
 // Casts the shadow rays and adds the light that is visible.
-void PixelLights::add_visible(std::span<PixelRay* const> asking) const {
+void PixelLights::add_visible(std::span<PixelRay* const> active) const {
     constexpr std::size_t packet = RayCaster::packet_size;
-    for (std::size_t begin = 0; begin < asking.size(); begin += packet) {
-        const std::size_t n = std::min(packet, asking.size() - begin);
+    for (std::size_t begin = 0; begin < active.size(); begin += packet) {
+        const std::size_t n = std::min(packet, active.size() - begin);
         const std::uint32_t seen = scene_.geometry.visible(
             n,
             [&](std::size_t i) {
-                return std::pair<const SurfacePoint&, const SurfacePoint&>(asking[begin + i]->x, asking[begin + i]->y);
+                return std::pair<const SurfacePoint&, const SurfacePoint&>(active[begin + i]->x, active[begin + i]->y);
             },
             RayCaster::Rays::alike);
         for (std::size_t i = 0; i < n; ++i)
-            if (seen >> i & 1u) asking[begin + i]->sample->add(bounce_of(*asking[begin + i]), asking[begin + i]->weight);
+            if (seen >> i & 1u) active[begin + i]->sample->add(bounce_of(*active[begin + i]), active[begin + i]->weight);
     }
 }
 
 std::uint64_t PixelLights::find_by_chance(std::span<PixelRay> rays) const {
     const Emitters& emitters = scene_.emitters;
-    std::vector<PixelRay*> asking;
+    std::vector<PixelRay*> active;
     for (PixelRay& l : rays) {
         // The other rays find light when they take all directions.
-        if (!emitters.empty() && !l.takes_all && asks_chance(l) && l.choose_direction(scene_.materials, *l.sample->sampler))
-            asking.push_back(&l);
+        if (!emitters.empty() && !l.takes_all && samples_directions(l) && l.choose_direction(scene_.materials, *l.sample->sampler))
+            active.push_back(&l);
     }
     for_hits(
-        scene_.geometry, asking.size(),
-        [&](std::size_t i) { return std::pair<const SurfacePoint&, const Vec3&>(asking[i]->x, asking[i]->wi); },
-        [&](std::size_t i) -> SurfacePoint& { return asking[i]->y; },
+        scene_.geometry, active.size(),
+        [&](std::size_t i) { return std::pair<const SurfacePoint&, const Vec3&>(active[i]->x, active[i]->wi); },
+        [&](std::size_t i) -> SurfacePoint& { return active[i]->y; },
         [&](std::size_t i) {
-            const PixelRay& l = *asking[i];
+            const PixelRay& l = *active[i];
             const Rgb emitted = emitters.emitted(l.y, -l.wi);
             if (is_black(emitted)) return;
             l.sample->add(1, l.weight * emitted *
                                  (l.sample->weight * power_heuristic(l.pdf, lights_.pdf(l.x.position, l.wi, l.y)) /
                                   (l.index_beyond * l.index_beyond)));
         });
-    return asking.size();
+    return active.size();
 }
 
 // Whether directions from the BSDF are used as well: near the lights (closer than the size of their box), where the
 // variance of points on them may be infinite, and if the material is not diffuse. The choice depends on x alone, so the
 // estimate stays unbiased.
-bool PixelLights::asks_chance(const PixelRay& l) const {
+bool PixelLights::samples_directions(const PixelRay& l) const {
     return !l.diffuse || glm::distance(l.x.position, glm::clamp(l.x.position, low_, high_)) < near_;
 }
 

@@ -29,9 +29,9 @@ public:
 private:
     std::uint64_t find_by_points(std::span<PixelRay> rays) const;
     std::uint64_t find_by_chance(std::span<PixelRay> rays) const;
-    bool ask(PixelRay& l, Sampler& sampler, const Rgb& scale, bool asks_directions_too) const;
-    void add_visible(std::span<PixelRay* const> asking) const;
-    bool asks_chance(const PixelRay& l) const;
+    bool sample_light(PixelRay& l, Sampler& sampler, const Rgb& scale, bool with_directions) const;
+    void add_visible(std::span<PixelRay* const> active) const;
+    bool samples_directions(const PixelRay& l) const;
 
     const Scene& scene_;
     std::size_t last_bounce_;

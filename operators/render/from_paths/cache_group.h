@@ -15,7 +15,7 @@ struct CacheSampler::Workspace {
     explicit Workspace(std::size_t quantities) : average(quantities), tally(quantities) {}
     PathGroup group;
     PlainWalkers walkers;
-    std::vector<RecordPlaces::Near> near;
+    std::vector<RecordPlaces::NearRecord> near;
     std::vector<Rgb> irradiance;
     PixelSamples samples;
     PixelAverage average;

@@ -31,7 +31,7 @@ void BalanceSheet::add(std::uint32_t path, const PathStep& step) {
         return;
     }
     settle(path);
-    if (step.kind == PathStep::Kind::asks || step.bounce >= static_cast<int>(entries_.size())) return;
+    if (step.kind == PathStep::Kind::shadow_ray || step.bounce >= static_cast<int>(entries_.size())) return;
     const Rgb beta = step.beta * share_;
     EnergyShares& entry = entries_[static_cast<std::size_t>(step.bounce)];
     (step.found ? entry.went_on : entry.left) += mean_component(beta);

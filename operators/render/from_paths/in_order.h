@@ -14,29 +14,29 @@ namespace neumann {
 // false. Returns whether all were added. Piece objects are reused.
 template <class Piece, class Make, class Add>
 bool add_in_order(std::size_t count, const Make& make, const Add& add) {
-    struct Place {
+    struct Slot {
         std::size_t number = 0;
         Piece piece;
     };
     namespace tbb = oneapi::tbb;
-    std::vector<Place> places(4 * static_cast<std::size_t>(tbb::info::default_concurrency()));
+    std::vector<Slot> slots(4 * static_cast<std::size_t>(tbb::info::default_concurrency()));
     std::size_t begun = 0;
     std::atomic<bool> dropped = false;
     tbb::parallel_pipeline(
-        places.size(), tbb::make_filter<void, Place*>(tbb::filter_mode::serial_in_order, [&](tbb::flow_control& control) -> Place* {
-                           if (begun == count || dropped) {
-                               control.stop();
-                               return nullptr;
-                           }
-                           Place& place = places[begun % places.size()];
-                           place.number = begun++;
-                           return &place;
-                       }) & tbb::make_filter<Place*, Place*>(tbb::filter_mode::parallel, [&](Place* place) {
-                           if (!dropped) make(place->number, place->piece);
-                           return place;
-                       }) & tbb::make_filter<Place*, void>(tbb::filter_mode::serial_in_order, [&](Place* place) {
-                           if (!dropped && !add(place->number, place->piece)) dropped = true;
-                       }));
+        slots.size(), tbb::make_filter<void, Slot*>(tbb::filter_mode::serial_in_order, [&](tbb::flow_control& control) -> Slot* {
+                          if (begun == count || dropped) {
+                              control.stop();
+                              return nullptr;
+                          }
+                          Slot& slot = slots[begun % slots.size()];
+                          slot.number = begun++;
+                          return &slot;
+                      }) & tbb::make_filter<Slot*, Slot*>(tbb::filter_mode::parallel, [&](Slot* slot) {
+                          if (!dropped) make(slot->number, slot->piece);
+                          return slot;
+                      }) & tbb::make_filter<Slot*, void>(tbb::filter_mode::serial_in_order, [&](Slot* slot) {
+                          if (!dropped && !add(slot->number, slot->piece)) dropped = true;
+                      }));
     return !dropped;
 }
 

@@ -33,12 +33,12 @@ bool MixedPaths::has_chains() const {
 }
 
 SamplingSettings settings_of_part(const SamplingSettings& settings, const Mixture& mixture, std::size_t part) {
-    const Mixture::Part& of = mixture.parts[part];
+    const Mixture::Part& mixture_part = mixture.parts[part];
     SamplingSettings own = settings;
-    own.method = of.path_method;
-    own.allocation = of.allocation;
-    own.walk.left_out = of.left_out;
-    if (!of.allocation) own.replicate_size = Allocation::size_of(settings.replicate_size, of.exponent);
+    own.method = mixture_part.path_method;
+    own.allocation = mixture_part.allocation;
+    own.walk.left_out = mixture_part.left_out;
+    if (!mixture_part.allocation) own.replicate_size = Allocation::size_of(settings.replicate_size, mixture_part.exponent);
     own.seed = settings.seed ^ (part + 1) * part_stream;
     return own;
 }
@@ -102,21 +102,21 @@ bool MixedSampler::sample_picture(std::uint64_t replicate, std::vector<Rgb>& pic
                 for (std::size_t q = 0; q < Q; ++q) {
                     const std::size_t i = pixel * Q + q;
                     picture[i] += own[i] * weight(part, q, pixel);
-                    const SampleRange& of = own_ranges.of[i];
-                    if (of.smallest[0] > of.largest[0]) continue;
+                    const SampleRange& own_range = own_ranges.of[i];
+                    if (own_range.smallest[0] > own_range.largest[0]) continue;
                     const double unit = scale(part, q, pixel);
-                    ranges.of[i].add(Rgb(of.smallest[0], of.smallest[1], of.smallest[2]) * unit);
-                    ranges.of[i].add(Rgb(of.largest[0], of.largest[1], of.largest[2]) * unit);
+                    ranges.of[i].add(Rgb(own_range.smallest[0], own_range.smallest[1], own_range.smallest[2]) * unit);
+                    ranges.of[i].add(Rgb(own_range.largest[0], own_range.largest[1], own_range.largest[2]) * unit);
                 }
         });
         const auto rename = [&](SamplePlace& place) { place.name.sample = place.name.sample * parts + part; };
         for (NonFiniteSample& sample : counted.non_finite) rename(sample.place);
         // The method itself found these samples large. If the blocks' weights differ, some that it did not keep may be larger.
         for (std::size_t q = 0; q < Q; ++q) {
-            const LargestSamples of = std::exchange(counted.largest[q], {});
+            const LargestSamples own_largest = std::exchange(counted.largest[q], {});
             counted.largest[q].outdo(tally.largest[q]);
-            counted.largest[q].add_count(of.count());
-            for (LargestSamples::Sample sample : of.kept()) {
+            counted.largest[q].add_count(own_largest.count());
+            for (LargestSamples::Sample sample : own_largest.kept()) {
                 sample.value *= scale(part, q, sample.place.pixel);
                 rename(sample.place);
                 counted.largest[q].add(sample.value, sample.place);

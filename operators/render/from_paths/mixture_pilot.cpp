@@ -120,14 +120,14 @@ Measured measure(const Contenders& all, double budget, const Grid& grid) {
     for (const Contender& contender : all) found.costs.even.push_back(contender.candidate->settings.method->has_even_samples());
     std::vector<std::vector<double>> variances(M);
     for (std::size_t bounce = 0; bounce < all.front().trial->terms(); ++bounce) {
-        const BounceVariances of = variances_of(all, bounce, grid);
+        const BounceVariances bounce_variances = variances_of(all, bounce, grid);
         double sum = 0.0;
-        for (const std::vector<double>& of_method : of.of) sum += sum_of(of_method);
-        if (!(of.square > 0.0) || !(sum > 0.0) || !std::isfinite(sum)) continue;
+        for (const std::vector<double>& of_method : bounce_variances.of) sum += sum_of(of_method);
+        if (!(bounce_variances.square > 0.0) || !(sum > 0.0) || !std::isfinite(sum)) continue;
         found.bounces.push_back(bounce);
-        found.costs.sizes.push_back(of.square);
+        found.costs.sizes.push_back(bounce_variances.square);
         for (std::size_t m = 0; m < M; ++m)
-            for (const double v : of.of[m]) variances[m].push_back(v / of.square);
+            for (const double v : bounce_variances.of[m]) variances[m].push_back(v / bounce_variances.square);
     }
     MixtureCosts& costs = found.costs;
     for (const std::vector<double>& of : variances) costs.variances.insert(costs.variances.end(), of.begin(), of.end());

@@ -26,7 +26,7 @@ enum class Paths {
 };
 
 enum class Remedy {
-    ask_lights,  // the walk with multiple importance sampling: the vertex that hit the light could have sampled it
+    sample_lights,  // the walk with multiple importance sampling: the vertex that hit the light could have sampled it
     // Two neighbouring vertices, or the camera and the first vertex, can be connected: paths from the lights find light
     // behind a delta lobe more often than walks hit it by chance.
     bidirectional,

@@ -61,7 +61,7 @@ void SplatSampler::trace_group(std::uint64_t replicate, std::uint32_t first, std
     group.samples.assign(samples * Q, Rgb(0.0));
     const int N = settings_.walk.bounces;
     // Adds a contribution to the quantities to which it belongs: its bounce, or its strategy (s, t).
-    const auto sort = [&](const Found& f, const auto& add) {
+    const auto sort = [&](const WayContribution& f, const auto& add) {
         if (*joined_ == BidirectionalPaths::Quantities::terms) {
             add(static_cast<std::size_t>(std::min(f.bounce, N + 1)), f.value * f.weight);
         } else if (f.bounce == N) {
@@ -71,8 +71,8 @@ void SplatSampler::trace_group(std::uint64_t replicate, std::uint32_t first, std
     };
     work.tally.given_up += bidirectional_.trace(
         T, std::span<const CameraRay>(group.rays), std::span(camera), std::span(light), work.bidirectional,
-        [&](std::uint32_t i, const Found& f) { sort(f, [&](std::size_t q, const Rgb& value) { found(i, q, value); }); },
-        [&](std::uint32_t i, const Vec2& position, const Found& f) {
+        [&](std::uint32_t i, const WayContribution& f) { sort(f, [&](std::size_t q, const Rgb& value) { found(i, q, value); }); },
+        [&](std::uint32_t i, const Vec2& position, const WayContribution& f) {
             sort(f, [&](std::size_t q, const Rgb& value) { splatted(i, position, q, value); });
         },
         work.tally.rays, observer);

@@ -28,7 +28,7 @@ template <class Continuation>
 class WalkEstimator : public TermEstimator {
 public:
     WalkEstimator(const Scene& scene, const WalkSettings& settings, const Continuation& continuation)
-        : scene_(&scene), settings_(settings), direct_(scene, asked(settings)), continuation_(continuation) {}
+        : scene_(&scene), settings_(settings), direct_(scene, direct_settings(settings)), continuation_(continuation) {}
 
     void operator()(std::span<const CameraRay> rays, std::span<Sampler> samplers, Walkers& walkers,
                     TermSamples& result) const override {
@@ -38,10 +38,10 @@ public:
                TermSamples& result) const override;
 
 private:
-    // The lights are not sampled if BSDF sampling alone is enough (LeftOut::questions).
-    static DirectLightSettings asked(const WalkSettings& settings) {
+    // The lights are not sampled if BSDF sampling alone is enough (LeftOut::light_samples).
+    static DirectLightSettings direct_settings(const WalkSettings& settings) {
         DirectLightSettings direct = settings.direct;
-        if (settings.left_out.questions && direct.direct == DirectLight::mis) direct.direct = DirectLight::bsdf;
+        if (settings.left_out.light_samples && direct.direct == DirectLight::mis) direct.direct = DirectLight::bsdf;
         return direct;
     }
 

@@ -29,15 +29,18 @@ std::optional<MomentsNode> run_whole_pictures(std::uint64_t first, std::uint64_t
         for (const Rgb& sum : mean) picture.push_back(sum / static_cast<double>(pixels));
 
         carry.resize((pixels + 1) * stride);
-        const auto of = [&](std::vector<double>& all, std::size_t pixel) { return std::span(all).subspan(pixel * stride, stride); };
+        const auto moments_of = [&](std::vector<double>& all, std::size_t pixel) {
+            return std::span(all).subspan(pixel * stride, stride);
+        };
         for_each_pixel([&](std::size_t pixel) {
-            PixelMoments::set(of(carry, pixel), std::span<const Rgb>(picture).subspan(pixel * quantities, quantities));
+            PixelMoments::set(moments_of(carry, pixel), std::span<const Rgb>(picture).subspan(pixel * quantities, quantities));
         });
         // Nodes of equal size are merged, like carries when 1 is added to a binary number.
         std::size_t level = 0;
         for (; r >> level & 1; ++level) {
             const auto n = static_cast<double>(std::uint64_t{1} << level);
-            for_each_pixel([&](std::size_t pixel) { PixelMoments::merge(of(waiting[level], pixel), n, of(carry, pixel), n); });
+            for_each_pixel(
+                [&](std::size_t pixel) { PixelMoments::merge(moments_of(waiting[level], pixel), n, moments_of(carry, pixel), n); });
             std::swap(waiting[level], carry);
         }
         std::swap(waiting[level], carry);

@@ -153,23 +153,23 @@ public:
 
     // Makes preparations that take too long smaller, and removes methods that still take too long. Returns the reasons.
     std::string leave_out(std::vector<Candidate>& able) const {
-        std::string said;
+        std::string reasons;
         std::vector<Candidate> fit;
         for (Candidate& candidate : able) {
             const Preparation whole = preparations_.of(candidate.method);
             const auto method = preparations_.fitting(part_of_preparation * seconds_, candidate.method);
             if (!method) {
-                said += fmt::format("; {} was left out: {}", name_of(candidate.method), describe(whole));
+                reasons += fmt::format("; {} was left out: {}", name_of(candidate.method), describe(whole));
                 continue;
             }
             if (const Preparation fits = preparations_.of(*method); fits.rays < whole.rays)
-                said += fmt::format("; {} was made smaller, of {:.0f} patches and {:.2g} rays: {}", name_of(candidate.method),
-                                    fits.facets, fits.rays, describe(whole));
+                reasons += fmt::format("; {} was made smaller, of {:.0f} patches and {:.2g} rays: {}", name_of(candidate.method),
+                                       fits.facets, fits.rays, describe(whole));
             candidate.method = *method;
             fit.push_back(std::move(candidate));
         }
         able = std::move(fit);
-        return said;
+        return reasons;
     }
     TrialSize size_of_trials(const std::vector<Candidate>& able) const {
         TrialSize size;

@@ -18,7 +18,7 @@ public:
     // Points on a light that touches a surface are not bounded.
     bool is_bounded(const SamplingSettings&) const override { return false; }
     std::string why_no_balance() const override { return "by mirrors alone, a path's weight is not what arrives"; }
-    std::optional<std::vector<Remedy>> remedies(const Scene&, bool) const override { return {{Remedy::ask_lights}}; }
+    std::optional<std::vector<Remedy>> remedies(const Scene&, bool) const override { return {{Remedy::sample_lights}}; }
 };
 
 std::shared_ptr<const PathSampler> ClassicPaths::sampler(const Scene& scene, const SamplingSettings& settings) const {

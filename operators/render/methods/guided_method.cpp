@@ -11,7 +11,8 @@
 namespace neumann::method {
 
 std::optional<Decisions> Guided::leaves_out() const {
-    return Decisions{&LeftOut::rays_from_surfaces, &LeftOut::rays_for_light, &LeftOut::shadow_rays_in_room, &LeftOut::questions};
+    return Decisions{&LeftOut::rays_from_surfaces, &LeftOut::rays_for_light, &LeftOut::shadow_rays_in_room,
+                     &LeftOut::light_samples};
 }
 
 std::optional<FieldNeeds> Guided::needs() const {

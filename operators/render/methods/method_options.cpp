@@ -91,7 +91,7 @@ std::vector<MethodOption> options_of_walks() {
             "How the light to sample is chosen: mixed (half by power, half uniform, the default), uniform, power, contribution "
             "(radiance times solid angle), tree (about the same, for many lights), all (each in turn)",
             light_choices, [](const auto& m) requires requires { m.direct; } {
-                return asks_lights(m.direct) ? std::optional(m.direct.lights) : std::nullopt;
+                return samples_lights(m.direct) ? std::optional(m.direct.lights) : std::nullopt;
             },
             [](auto& m, LightChoice c) { m.direct.lights = c; }),
         option(
@@ -178,7 +178,7 @@ std::span<const MethodOption> method_options() {
     return all;
 }
 
-bool asks_lights(const DirectLightSettings& direct) {
+bool samples_lights(const DirectLightSettings& direct) {
     return direct.direct == DirectLight::light || direct.direct == DirectLight::mis;
 }
 std::string name_of(const DirectLightSettings& direct) { return name(strategies, strategy(direct)); }

@@ -46,7 +46,7 @@ Method make_method(const MethodText& text);
 Method read_method(const std::string& word);
 // The value of --direct for these settings, and whether it has light samples, for which lights are chosen.
 std::string name_of(const DirectLightSettings& direct);
-bool asks_lights(const DirectLightSettings& direct);
+bool samples_lights(const DirectLightSettings& direct);
 // The inverse of make_method(): all options that are not left open.
 MethodText text_of(const Method& method);
 // Like text_of(), but only with options that differ from their defaults.

@@ -20,7 +20,7 @@ std::optional<method::Decisions> decisions(const M& m) {
         return method::Decisions{};
 }
 
-bool asks_roulette(const Method& method) {
+bool uses_roulette(const Method& method) {
     return std::visit(
         [](const auto& m) {
             if constexpr (requires { m.roulette; }) return m.roulette.kind != Roulette::Kind::none;
@@ -54,7 +54,7 @@ Plan plan_for(const Method& method, const Scene& scene) {
         plan.walk.*p.decision = false;
         return true;
     });
-    if (asks_roulette(method))
+    if (uses_roulette(method))
         for (PlanPart& p : plan.parts)
             if (p.part == roulette_part) p = {roulette_part, true, "the option roulette asks for it", ""};
     return plan;

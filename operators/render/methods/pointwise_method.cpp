@@ -64,7 +64,7 @@ public:
     bool is_bounded(const SamplingSettings&) const override { return true; }
     std::string why_no_checkup() const override { return "every bounce has a path of its own"; }
     std::optional<std::vector<Remedy>> remedies(const Scene& scene, bool) const override {
-        return {{scene.hide_emitters ? Remedy::ask_lights : Remedy::bidirectional}};
+        return {{scene.hide_emitters ? Remedy::sample_lights : Remedy::bidirectional}};
     }
 };
 

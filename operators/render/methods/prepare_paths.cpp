@@ -69,7 +69,7 @@ constexpr double enough_samples = 16.0;
 std::optional<double> time_limit(const Goal& goal) { return with_default_limits(goal).seconds; }
 
 // The method as it is prepared in the available time. Reports a long preparation before it begins.
-Method foretold(const Method& method, int bounces, const RenderJob& job) {
+Method method_in_time(const Method& method, int bounces, const RenderJob& job) {
     if (job.goal.only_pictures || job.saving.from) return method;
     const std::optional<double> seconds = time_limit(job.goal);
     if (!seconds) {
@@ -121,12 +121,12 @@ bool set_up(const Method& method, const RenderJob& job, SamplingSettings& settin
     }
 }
 
-PreparedPaths prepare_paths(const Method& asked, const RenderJob& job) {
+PreparedPaths prepare_paths(const Method& requested, const RenderJob& job) {
     const Goal& goal = job.goal;
-    SamplingSettings settings = sampling_settings(asked, job.scene, job.plan, goal.seed);
+    SamplingSettings settings = sampling_settings(requested, job.scene, job.plan, goal.seed);
     settings.colors = goal.colors;
     settings.walk.bounces = choose_bounces(job);
-    const Method method = foretold(asked, settings.walk.bounces, job);
+    const Method method = method_in_time(requested, settings.walk.bounces, job);
 
     SamplingGoal to_reach = sampling_goal(goal);
     if (goal.samples && *goal.samples != *to_reach.samples)

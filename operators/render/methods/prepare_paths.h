@@ -17,6 +17,6 @@ struct PreparedPaths {
     double setup_seconds;
 };
 // Reports long preparations before they begin. Throws as above, and InputError.
-PreparedPaths prepare_paths(const Method& asked, const RenderJob& job);
+PreparedPaths prepare_paths(const Method& requested, const RenderJob& job);
 
 }  // namespace neumann

@@ -105,10 +105,10 @@ std::vector<std::pair<double, FurnaceWalk>> furnaces(const Roulette& roulette, d
 
 }  // namespace
 
-BounceSeries render_by_paths(const Method& asked, const RenderJob& job) {
+BounceSeries render_by_paths(const Method& requested, const RenderJob& job) {
     const Scene& scene = job.scene;
     const Goal& goal = job.goal;
-    auto [method, settings, to_reach, setup_seconds] = prepare_paths(asked, job);
+    auto [method, settings, to_reach, setup_seconds] = prepare_paths(requested, job);
     const RestVerdict verdict = rest_verdict(*settings.method, job);
     auto [sampled, report] = sample(method, settings, to_reach, verdict, job, setup_seconds);
     auto [series, moments] = as_series(sampled, std::move(report), method, settings, to_reach.first, setup_seconds, job);

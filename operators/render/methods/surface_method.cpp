@@ -18,7 +18,7 @@ public:
     bool is_bounded(const SamplingSettings&) const override { return false; }
     std::string why_no_balance() const override { return "by points on surfaces, a path's weight is not what arrives"; }
     bool rays_meet_surfaces() const override { return false; }
-    std::optional<std::vector<Remedy>> remedies(const Scene&, bool) const override { return {{Remedy::ask_lights}}; }
+    std::optional<std::vector<Remedy>> remedies(const Scene&, bool) const override { return {{Remedy::sample_lights}}; }
 };
 
 std::shared_ptr<const PathSampler> SurfacePaths::sampler(const Scene& scene, const SamplingSettings& settings) const {

@@ -44,7 +44,7 @@ std::vector<MethodOption> Walk::own_options() {
 }
 
 void Walk::expect_sense(bool lights) const {
-    if (lights && !asks_lights(direct))
+    if (lights && !samples_lights(direct))
         throw OptionError("lights", fmt::format(" chooses among lights, and direct = {} asks none; take light, solid-angle or mis",
                                                 name_of(direct)));
     if (tree && (split != Split{} || roulette != Roulette{}))
@@ -58,7 +58,7 @@ std::optional<Decisions> Walk::leaves_out() const {
     Decisions taken{&LeftOut::rays_from_surfaces, &LeftOut::rays_for_light};
     if (direct.direct != DirectLight::hemisphere && direct.direct != DirectLight::cosine)
         taken.push_back(&LeftOut::shadow_rays_in_room);
-    if (direct.direct == DirectLight::mis) taken.push_back(&LeftOut::questions);
+    if (direct.direct == DirectLight::mis) taken.push_back(&LeftOut::light_samples);
     return taken;
 }
 

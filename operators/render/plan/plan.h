@@ -1,5 +1,6 @@
 // The parts of the program that a scene needs, found from the scene before anything runs. Other parts are left out. This does not
-// change the expected picture; except for LeftOut::questions, it changes no bit of the picture. The cases are listed in plan.cpp.
+// change the expected picture; except for LeftOut::light_samples, it changes no bit of the picture. The cases are listed in
+// plan.cpp.
 #pragma once
 
 #include "core/scene/scene.h"

@@ -45,9 +45,10 @@ std::vector<Rgb> bounds(const Scene& scene, const SamplingSettings& settings) {
     return all;
 }
 
-class Look {
+class SeriesBounds {
 public:
-    Look(const Scene& scene, const SamplingSettings& settings, const SampleRanges& ranges, const SeriesMoments::Result& result)
+    SeriesBounds(const Scene& scene, const SamplingSettings& settings, const SampleRanges& ranges,
+                 const SeriesMoments::Result& result)
         : scene_(&scene),
           method_(settings.method),
           near_lights_have_no_bound_(!settings.weighs_directions()),
@@ -71,7 +72,7 @@ public:
         double mean_at_most = 0.0, of_mean = 0.0;
     };
     // Must be called for q = 0, 1, … in order.
-    Quantity look(std::size_t q, double samples, double t) {
+    Quantity bound(std::size_t q, double samples, double t) {
         const Estimate term = result_->term(q);
         const std::size_t pixels = result_->pixels();
         remember_largest(q);
@@ -262,11 +263,11 @@ LeastErrors::LeastErrors(const Scene& scene, const SamplingSettings& settings, c
       of_means_(result.quantities(), 0.0) {
     const double t = student_t_quantile(0.95, result.degrees_of_freedom());
     if (!std::isfinite(t) || series.moments.ranges().of.empty()) return;
-    Look look(scene, settings, series.moments.ranges(), result);
+    SeriesBounds bounds_of_series(scene, settings, series.moments.ranges(), result);
     for (std::size_t q = 0; q < terms_.size(); ++q) {
         // All samples of a pass share its photons or records, and those of a chain its states, so they count as one.
         const bool is_shared = (settings.method->two_radii() && q > 1) || (settings.method->has_chains() && q > 0);
-        auto found = look.look(q, static_cast<double>(is_shared ? series.moments.replicates() : series.samples), t);
+        auto found = bounds_of_series.bound(q, static_cast<double>(is_shared ? series.moments.replicates() : series.samples), t);
         terms_[q] = std::move(found.errors);
         means_at_most_[q] = found.mean_at_most;
         if (!is_shared && !settings.method->splats()) of_means_[q] = found.of_mean;

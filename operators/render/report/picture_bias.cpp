@@ -9,15 +9,15 @@ namespace {
 
 constexpr int neighbourhoods_across = 8;
 
-// The mean of `of(k)` over max(i − reach, 0) ≤ k ≤ min(i + reach, count − 1), for each i.
-template <class Of, class Put>
-void running_means(int count, int reach, const Of& of, const Put& put) {
+// The mean of `value_at(k)` over max(i − reach, 0) ≤ k ≤ min(i + reach, count − 1), for each i.
+template <class ValueAt, class Put>
+void running_means(int count, int reach, const ValueAt& value_at, const Put& put) {
     Rgb sum(0.0);
-    for (int k = 0; k < std::min(reach, count); ++k) sum += of(k);
+    for (int k = 0; k < std::min(reach, count); ++k) sum += value_at(k);
     int values = std::min(reach, count);
     for (int i = 0; i < count; ++i) {
-        if (i + reach < count) sum += of(i + reach), ++values;
-        if (i > reach) sum -= of(i - reach - 1), --values;
+        if (i + reach < count) sum += value_at(i + reach), ++values;
+        if (i > reach) sum -= value_at(i - reach - 1), --values;
         put(i, glm::max(sum, Rgb(0.0)) / static_cast<double>(values));
     }
 }

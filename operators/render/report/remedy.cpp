@@ -40,8 +40,8 @@ std::vector<Remedy> remedies(const Scene& scene, const PictureSampler& sampler, 
     // The place behind the last reflection that is not by a delta lobe.
     const auto last = std::find_if(is_delta.rbegin(), is_delta.rend(), scatters).base();
     if (last == is_delta.begin()) return {};
-    const bool is_asked = settings.walk.direct.direct == DirectLight::mis;
-    if (last == is_delta.end() && !is_asked) return {Remedy::ask_lights};
+    const bool has_light_samples = settings.walk.direct.direct == DirectLight::mis;
+    if (last == is_delta.end() && !has_light_samples) return {Remedy::sample_lights};
     const auto neighbours = std::adjacent_find(is_delta.begin(), last, [](bool a, bool b) { return !a && !b; });
     if (scene.hide_emitters || (is_delta.front() && neighbours == last)) return {};
     if (rest) return {Remedy::bidirectional, Remedy::more_bounces};

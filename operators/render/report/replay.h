@@ -11,12 +11,12 @@ namespace neumann {
 
 struct ReplayedStep {
     PathStep step;
-    struct Found {
+    struct Contribution {
         std::size_t quantity;       // its bounce; N + 1 stands for the rest
         Rgb value;                  // contribution to the picture: radiance, as a sample of the pixel
         std::optional<Vec2> pixel;  // position on the film if a path from a light found it; otherwise it is the path's own pixel
     };
-    std::vector<Found> found;
+    std::vector<Contribution> found;
 };
 // Whether all values are finite numbers. The pdf of delta directions is ∞ by convention.
 bool is_finite(const ReplayedStep& step);

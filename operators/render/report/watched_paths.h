@@ -25,14 +25,15 @@ public:
         step.to = y;
         observer_->step(path, step);
     }
-    void asks(std::uint32_t path, bool from_light, int bounce, const SurfacePoint& x, const Vec3& w, const SurfacePoint& y,
-              bool seen) const {
+    void casts_shadow_ray(std::uint32_t path, bool from_light, int bounce, const SurfacePoint& x, const Vec3& w,
+                          const SurfacePoint& y, bool seen) const {
         if (!observer_->watches(path)) return;
-        observer_->step(path, {PathStep::Kind::asks, from_light, bounce, x, glm::normalize(w), 0.0, Rgb(0.0), seen, y});
+        observer_->step(path, {PathStep::Kind::shadow_ray, from_light, bounce, x, glm::normalize(w), 0.0, Rgb(0.0), seen, y});
     }
     void joins(std::uint32_t path, int bounce, const SurfacePoint& x, const SurfacePoint& y, bool seen) const {
         if (!observer_->watches(path)) return;
-        PathStep step{PathStep::Kind::asks, false, bounce, x, glm::normalize(y.position - x.position), 0.0, Rgb(0.0), seen, y};
+        PathStep step{
+            PathStep::Kind::shadow_ray, false, bounce, x, glm::normalize(y.position - x.position), 0.0, Rgb(0.0), seen, y};
         step.is_shared = true;
         observer_->step(path, step);
     }

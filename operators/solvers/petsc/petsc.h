@@ -36,13 +36,13 @@ public:
         bool own_tolerance = false;  // the options set another tolerance
     };
     // Called for each iterate; `residual` is ‖r‖₂ in the norm that the method uses.
-    using Look = std::function<void(int iteration, double residual, const std::function<Vector()>& iterate)>;
+    using OnIterate = std::function<void(int iteration, double residual, const std::function<Vector()>& iterate)>;
 
     virtual ~PetscLinear() = default;
     // The names of method and preconditioner: "gmres/jacobi".
     virtual std::string method() const = 0;
     // Solves A x = b from the given x until the residual is `tolerance` times that of x = 0.
-    virtual End solve(const Vector& b, Vector& x, double tolerance, int most, const Look& look) = 0;
+    virtual End solve(const Vector& b, Vector& x, double tolerance, int most, const OnIterate& on_iterate) = 0;
 };
 
 // Entries as PETSc stores them (MATAIJ), whose products are compared with others.

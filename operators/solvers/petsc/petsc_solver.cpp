@@ -10,10 +10,11 @@ namespace neumann {
 
 namespace {
 
-std::vector<std::string> told_of(const Petsc& petsc) {
-    std::vector<std::string> told;
-    for (const std::string& option : petsc.unused_options()) told.push_back("PETSc: nothing has asked for the option " + option);
-    return told;
+std::vector<std::string> messages_of(const Petsc& petsc) {
+    std::vector<std::string> messages;
+    for (const std::string& option : petsc.unused_options())
+        messages.push_back("PETSc: nothing has asked for the option " + option);
+    return messages;
 }
 
 PetscMatrix rows_of(const ChannelOperator& K) {
@@ -73,7 +74,7 @@ SolverResult solve_petsc(const Problem& problem, Petsc& petsc, std::string& meth
     method = linear->method();
     if (log.largest(problem.Le) == 0.0) return log.end(x, Verdict::converged, "nothing emits");
     double first = std::numeric_limits<double>::quiet_NaN();
-    const PetscLinear::Look look = [&](int, double residual, const std::function<Vector()>& iterate) {
+    const PetscLinear::OnIterate on_iterate = [&](int, double residual, const std::function<Vector()>& iterate) {
         if (std::isnan(first)) first = residual;
         const double error = problem.exact ? log.true_error(iterate()) : std::numeric_limits<double>::quiet_NaN();
         log.record(residual / first, error);
@@ -83,7 +84,7 @@ SolverResult solve_petsc(const Problem& problem, Petsc& petsc, std::string& meth
     try {
         for (;;) {
             const int most = static_cast<int>(problem.most) - static_cast<int>(log.own_applications());
-            const PetscLinear::End end = linear->solve(problem.Le, x, goal, most, look);
+            const PetscLinear::End end = linear->solve(problem.Le, x, goal, most, on_iterate);
             log.apply(x, r);
             r += problem.Le - x;
             const double estimate = log.from_residual(r, x);
@@ -105,7 +106,7 @@ SolverResult solve_petsc(const Problem& problem, Petsc& petsc, std::string& meth
 
 std::vector<std::string> add_petsc_rows(const Problem& problem, const std::vector<std::string>& options, bool histories,
                                         const Watch& watch, SideBySide& all) {
-    std::vector<std::string> told;
+    std::vector<std::string> messages;
     const StoppableChannel K(*problem.K, watch);
     const Agreement& agreement = K.agreement();
     Problem plain = problem;
@@ -132,16 +133,16 @@ std::vector<std::string> add_petsc_rows(const Problem& problem, const std::vecto
             row.name = "petsc-" + method;
             std::replace(row.name.begin(), row.name.end(), '/', '-');
             all.rows.push_back(std::move(row));
-            for (const std::string& text : told_of(*petsc)) told.push_back(text);
+            for (const std::string& text : messages_of(*petsc)) messages.push_back(text);
         }
     } catch (const Stopped&) {
         all.interrupted = true;
     }
-    return told;
+    return messages;
 }
 
 Eigenpairs slepc_eigenpairs(const ChannelOperator& K, int count, const std::string& options, const EigenLimits& limits,
-                            std::vector<std::string>* told) {
+                            std::vector<std::string>* messages) {
     Eigenpairs result;
     PetscMatrix A = petsc_matrix(K);
     A.apply = [&](const Vector& x, Vector& y) {
@@ -183,8 +184,8 @@ Eigenpairs slepc_eigenpairs(const ChannelOperator& K, int count, const std::stri
     } catch (const Stopped&) {
         result.why = fmt::format("not found within {:.0f} applications of K: stopped", result.applications);
     }
-    if (told)
-        for (const std::string& text : told_of(*petsc)) told->push_back(text);
+    if (messages)
+        for (const std::string& text : messages_of(*petsc)) messages->push_back(text);
     return result;
 }
 

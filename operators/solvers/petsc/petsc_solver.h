@@ -29,9 +29,9 @@ std::vector<std::string> add_petsc_rows(const Problem& problem, const std::vecto
                                         const Watch& watch, SideBySide& all);
 
 // The result of leading_eigenpairs(), by the SLEPc method that the options name. If several processes share K, each
-// gets the values of its unknowns. Adds to `told` the messages that add_petsc_rows() would return.
+// gets the values of its unknowns. Adds to `messages` the messages that add_petsc_rows() would return.
 Eigenpairs slepc_eigenpairs(const ChannelOperator& K, int count, const std::string& options, const EigenLimits& limits = {},
-                            std::vector<std::string>* told = nullptr);
+                            std::vector<std::string>* messages = nullptr);
 
 // The result of operator_norms(), for a K that several processes may share; `one_at` is a number among this process's
 // unknowns, or −1 if another process has that unknown.

@@ -125,7 +125,7 @@ std::string_view Accessors::bytes_of_buffer(std::size_t buffer) {
     if (uri) {
         const auto [content, is_new] = contents_.try_emplace(buffer);
         if (is_new) content->second = read_uri(*uri, path_, object.place_of("uri"), files_);
-        if (!content->second) throw Told();
+        if (!content->second) throw AlreadyReported();
         bytes = *content->second;
     } else if (buffer == 0 && file_.binary()) {
         bytes = *file_.binary();

@@ -22,7 +22,7 @@ struct Numbers {
     const float* operator[](std::size_t i) const { return &values[i * width]; }
 };
 
-// All functions throw InputError if an index is not in the file or leads beyond the bytes that are there, and Told if
+// All functions throw InputError if an index is not in the file or leads beyond the bytes that are there, and AlreadyReported if
 // that has been reported before.
 class Accessors {
 public:

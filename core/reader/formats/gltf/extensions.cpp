@@ -73,7 +73,7 @@ void check_extensions(JsonObject& root) {
 }
 
 void fail_compressed(const std::string& extension, const Location& place, const Notes& notes) {
-    if (notes.refused.contains(extension) && !notes.problems.lenient()) throw Told();
+    if (notes.refused.contains(extension) && !notes.problems.lenient()) throw AlreadyReported();
     throw Unknown(place, fmt::format("compressed by {}, which is not supported", extension), std::string(uncompressed), "left out");
 }
 

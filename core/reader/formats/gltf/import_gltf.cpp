@@ -81,7 +81,7 @@ RawScene read(const std::string& path, const NamedValues& definitions, Warnings&
 RawScene import_gltf(const std::string& path, const NamedValues& definitions, Warnings& warnings, Problems& problems) {
     try {
         return read(path, definitions, warnings, problems);
-    } catch (const Told&) {
+    } catch (const AlreadyReported&) {
         problems.check({path});
         throw;
     }

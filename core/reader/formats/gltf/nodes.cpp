@@ -135,9 +135,9 @@ private:
         if (const auto chosen = root_.index("scene", scenes, "scene"))
             number = *chosen;
         else if (root_.has("scene"))
-            throw Told();
+            throw AlreadyReported();
         if (scenes.size() == 0) {
-            if (scenes.broken()) throw Told();
+            if (scenes.broken()) throw AlreadyReported();
             throw InputError(root_.place(), "the file has no scenes, expected one");
         }
         JsonObject scene = scenes.object(number);

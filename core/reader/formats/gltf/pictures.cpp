@@ -86,7 +86,7 @@ const Texels& Pictures::texels(std::size_t image) {
         object.finish();
         found->second = is_known ? std::make_shared<const Texels>(decode_texels(bytes, to_string(object.place()))) : grey;
     }
-    if (!found->second) throw Told();
+    if (!found->second) throw AlreadyReported();
     return *found->second;
 }
 

@@ -111,7 +111,7 @@ private:
 
     std::vector<std::uint32_t> read_corners(std::int64_t mode, std::size_t count) {
         const auto index = primitive_.index("indices", accessors_.list(), "accessor");
-        if (!index && primitive_.has("indices")) throw Told();
+        if (!index && primitive_.has("indices")) throw AlreadyReported();
         std::vector<std::uint32_t> corners;
         if (index) {
             corners = accessors_.indices(*index);

@@ -55,14 +55,14 @@ Shapes::Shapes(JsonObject& root, Accessors& accessors, Pictures& pictures, Files
 
 const Material& Shapes::material_of(JsonObject& primitive) {
     const auto index = primitive.index("material", materials_, "material");
-    if (!index && primitive.has("material")) throw Told();
+    if (!index && primitive.has("material")) throw AlreadyReported();
     if (!index) return default_material_;
     const auto [found, is_new] = known_materials_.try_emplace(*index);
     if (is_new)
         notes_.problems.attempt(materials_.place_of(*index), [&, &material = found->second] {
             material = std::make_unique<const Material>(read_material(materials_.object(*index), textures_));
         });
-    if (!found->second) throw Told();
+    if (!found->second) throw AlreadyReported();
     return *found->second;
 }
 
@@ -74,7 +74,7 @@ std::string Shapes::bsdf_of(Element& scene, const Material& material, const OnMe
             neumann::reader::add(scene, make_bsdf(material, mesh, id, pictures_, notes_.warnings));
             known = id;
         });
-    if (found->second.empty()) throw Told();
+    if (found->second.empty()) throw AlreadyReported();
     return found->second;
 }
 

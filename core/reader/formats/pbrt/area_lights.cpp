@@ -25,7 +25,7 @@ AreaLight read_area_light(Entity& e, Importer& importer) {
     if (const double power = read_positive(p, "power"); power > 0.0) light.power = power;
     light.two_sided = p.boolean("twosided").value_or(false);
     p.finish();
-    if (p.is_wrong()) throw Told();
+    if (p.is_wrong()) throw AlreadyReported();
     light.radiance = {colour.value_or(Rgb(1.0)) * scale};
     if (filename) {
         Picture picture = find_picture(*filename, p.place("filename"), importer);

@@ -20,7 +20,7 @@ struct AreaLight {
     Element emitter(double area, Coordinates coordinates, Importer& importer) const;
 };
 
-// Throws InputError, or Told if parameters are wrong.
+// Throws InputError, or AlreadyReported if parameters are wrong.
 AreaLight read_area_light(Entity& e, Importer& importer);
 
 }  // namespace neumann::reader::pbrt

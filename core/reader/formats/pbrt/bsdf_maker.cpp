@@ -36,7 +36,7 @@ Element BsdfMaker::make() {
     Element inner = make_type();
     Element e = with_normals(std::move(inner));
     p_.finish();
-    if (p_.is_wrong()) throw Told();
+    if (p_.is_wrong()) throw AlreadyReported();
     return e;
 }
 

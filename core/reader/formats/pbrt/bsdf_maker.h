@@ -15,7 +15,7 @@ public:
     BsdfMaker(MaterialEntity& material, Textures& textures, Importer& importer, Coordinates coordinates)
         : p_(material.parameters), type_(material.type), textures_(textures), importer_(importer), coordinates_(coordinates) {}
 
-    // Throws InputError for a type that is not known, and Told if parameters are wrong.
+    // Throws InputError for a type that is not known, and AlreadyReported if parameters are wrong.
     Element make();
     // Whether textures, or the direction in which the surface is brushed, need coordinates.
     bool needs_coordinates() const { return needs_coordinates_; }

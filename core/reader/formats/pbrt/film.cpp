@@ -115,7 +115,7 @@ Element make_filter(Entity& e, Importer& importer) {
     Parameters& p = e.parameters;
     const auto finished = [&](Element filter) {
         p.finish();
-        if (p.is_wrong()) throw Told();
+        if (p.is_wrong()) throw AlreadyReported();
         return filter;
     };
     if (e.type == "box") {

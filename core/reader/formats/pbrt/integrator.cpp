@@ -33,7 +33,7 @@ Element make_integrator(PbrtScene& from, Importer& importer) {
     p.ignore({"bootstrapsamples", "chains", "largestepprobability", "lightsampler", "mutationsperpixel", "photonsperiteration",
               "radius", "samplebsdf", "samplelights", "seed", "sigma", "visualizestrategies", "visualizeweights"});
     p.finish();
-    if (p.is_wrong()) throw Told();
+    if (p.is_wrong()) throw AlreadyReported();
     Element integrator = make_object("integrator", "path", e.place());
     add_integer(integrator, "max_depth", depth + 1, p.place("maxdepth"));  // Mitsuba counts the vertex that emits, too
     return integrator;

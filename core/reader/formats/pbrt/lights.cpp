@@ -38,7 +38,7 @@ void expect_direction(const Entity& e) {
 
 void finish(Parameters& p) {
     p.finish();
-    if (p.is_wrong()) throw Told();
+    if (p.is_wrong()) throw AlreadyReported();
 }
 
 // Reads `from` and `to`, which must differ.

@@ -92,7 +92,7 @@ Element Materials::make_mix(MaterialEntity& m, Coordinates coordinates, bool& ne
     if (const Rgb* c = amount.constant(); c && !(c->r >= 0.0 && c->r <= 1.0))
         p.complain("amount", fmt::format("amount of {} is {}, expected from 0 to 1", p.title(), c->r));
     p.finish();
-    if (p.is_wrong()) throw Told();
+    if (p.is_wrong()) throw AlreadyReported();
     Element e = make_object("bsdf", "blendbsdf", m.place());
     add_texture(e, "weight", amount, coordinates, true, p.place("amount"));
     needs_coordinates = !amount.constant();

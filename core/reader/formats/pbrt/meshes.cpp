@@ -9,7 +9,7 @@
 namespace neumann::reader::pbrt {
 
 std::vector<std::uint32_t> read_indices(Parameters& p, std::size_t vertex_count, std::size_t size) {
-    if (p.is_wrong()) throw Told();
+    if (p.is_wrong()) throw AlreadyReported();
     std::vector<std::int64_t> given = p.integers("indices");
     if (given.empty() && !p.has("indices") && vertex_count == size)
         for (std::size_t i = 0; i < size; ++i) given.push_back(static_cast<std::int64_t>(i));
@@ -22,7 +22,7 @@ std::vector<std::uint32_t> read_indices(Parameters& p, std::size_t vertex_count,
             p.complain("indices", fmt::format("an index of {} is {}, but there are {} points", p.title(), i, vertex_count));
         indices.push_back(static_cast<std::uint32_t>(i));
     }
-    if (p.is_wrong()) throw Told();
+    if (p.is_wrong()) throw AlreadyReported();
     return indices;
 }
 
@@ -68,7 +68,7 @@ MadeMesh read_ply_mesh(Parameters& p, Importer& importer) {
     if (p.find("displacement", {"texture"}))
         p.refuse("displacement", fmt::format("displacement of {} is not supported", p.title()), "; that of materials is");
     p.ignore({"edgelength"});  // for displacement
-    if (!name || p.is_wrong()) throw Told();
+    if (!name || p.is_wrong()) throw AlreadyReported();
     const std::string path = find_file(*name, importer.main_file(), p.place("filename"));
     const std::string bytes = read_unpacked(path);
     importer.scene.files.push_back(path);

@@ -17,7 +17,7 @@ struct MadeMesh {
     std::optional<std::size_t> triangles_of_light = 1;
 };
 
-// All functions throw InputError, or Told if parameters are wrong.
+// All functions throw InputError, or AlreadyReported if parameters are wrong.
 
 // Makes the "trianglemesh" that its parameters hold.
 MadeMesh make_triangle_mesh(Parameters& p);

@@ -41,7 +41,7 @@ void Parameters::add_defaults(const std::vector<Parameter>& defaults) {
 }
 
 const Parameter* Parameters::find(const std::string& name, std::initializer_list<const char*> types) {
-    asked_.insert(name);
+    queried_.insert(name);
     for (const Parameter& p : all_)
         if (p.name == name && is_in(types, p.type)) {
             read_.insert(&p);
@@ -128,7 +128,7 @@ std::vector<std::string> Parameters::texts(const std::string& name) {
 
 void Parameters::ignore(std::initializer_list<const char*> names) {
     for (const char* name : names) {
-        asked_.insert(name);
+        queried_.insert(name);
         for (const Parameter& p : all_)
             if (p.name == name) read_.insert(&p);
     }
@@ -149,10 +149,10 @@ void Parameters::refuse(const std::string& name, const std::string& what, const 
 }
 
 void Parameters::finish() {
-    const std::vector<std::string> known(asked_.begin(), asked_.end());
+    const std::vector<std::string> known(queried_.begin(), queried_.end());
     for (const Parameter& p : all_) {
         if (p.is_default || read_.contains(&p) || spoilt_.contains(p.name)) continue;
-        if (asked_.contains(p.name))
+        if (queried_.contains(p.name))
             complain(p.name, fmt::format("{} of {} is of the type {}, which is not expected here", p.name, title_, p.type));
         else
             refuse(p.name, fmt::format("unknown parameter '{}' of {}", printable(p.name), title_),

@@ -90,7 +90,7 @@ private:
     Problems* problems_;
     std::vector<Parameter> all_;
     std::set<const Parameter*> read_;
-    std::set<std::string> spoilt_, asked_;
+    std::set<std::string> spoilt_, queried_;
 };
 
 }  // namespace neumann::reader

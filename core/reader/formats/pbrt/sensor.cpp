@@ -138,7 +138,7 @@ Element make_sampler(PbrtScene& from, Element& scene, Importer& importer) {
     if (count < 1) p.complain("pixelsamples", fmt::format("{} takes {} samples of a pixel, expected at least 1", p.title(), count));
     p.ignore({"seed", "randomization"});
     p.finish();
-    if (p.is_wrong()) throw Told();
+    if (p.is_wrong()) throw AlreadyReported();
     Element sampler = make_object("sampler", e.type == "independent" ? "independent" : "multijitter", e.place());
     add_defined(scene, sampler, "integer", "sample_count", "spp", std::to_string(count), place);
     return sampler;
@@ -167,7 +167,7 @@ Element make_sensor(PbrtScene& from, Element& scene, Importer& importer) {
         Element made = e.type == "orthographic" ? make_orthographic(e, screen, importer) : make_perspective(e, screen, importer);
         add_clipping(made, e.place());
         p.finish();
-        if (p.is_wrong()) throw Told();
+        if (p.is_wrong()) throw AlreadyReported();
         return made;
     });
     if (!sensor) sensor = make_object("sensor", "perspective", e.place());  // unused, because there is a problem

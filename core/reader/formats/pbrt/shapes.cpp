@@ -73,7 +73,7 @@ void Shapes::add(ShapeEntity& s, std::vector<Element>& to) {
     // The material is made first, so that its problems are reported even if the shape has some.
     MadeMaterial material = materials_.use(s.material, form ? form->coordinates : Coordinates::same);
     if (!form && importer_.problems.lenient()) return;  // its type is not known
-    if (!form || p.is_wrong()) throw Told();
+    if (!form || p.is_wrong()) throw AlreadyReported();
     if (!lay_flat(s, *form)) return;
     if (material.is_interface) {
         if (s.light) importer_.warnings.add("area light on a shape with the material 'interface': left out, as in pbrt");
@@ -110,7 +110,7 @@ bool Shapes::lay_flat(ShapeEntity& s, Form& form) {
 
 void Shapes::add_lights(const ShapeEntity& s, const Form& form, const MadeMaterial& material, std::vector<Element>& to) {
     const std::optional<AreaLight>& light = lights_[*s.light];
-    if (!light) throw Told();
+    if (!light) throw AlreadyReported();
     const auto add_sides = [&](const Form& part, double area) {
         MadeMaterial own = material;
         own.needs_coordinates = own.needs_coordinates || !light->radiance.constant();

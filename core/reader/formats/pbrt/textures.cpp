@@ -71,7 +71,7 @@ TextureValue Textures::make_picture(TextureEntity& e) {
     const double gamma = encoding == "sRGB" || encoding == "linear" ? 1.0 : read_gamma(p, encoding);
     picture.mapping = read_mapping(p);
     p.finish();
-    if (!name || p.is_wrong()) throw Told();
+    if (!name || p.is_wrong()) throw AlreadyReported();
 
     const Picture found = find_picture(*name, p.place("filename"), importer_);
     picture.path = found.path;
@@ -121,7 +121,7 @@ TextureValue Textures::make(TextureEntity& e) {
     if (e.type == "imagemap") return make_picture(e);
     const auto finished = [&](TextureValue t) {
         p.finish();
-        if (p.is_wrong()) throw Told();
+        if (p.is_wrong()) throw AlreadyReported();
         return t;
     };
     if (e.type == "constant") return finished(operand(e, "value", 1.0));

@@ -63,7 +63,7 @@ const std::string& Bsdfs::id_of(std::size_t index, bool sided) {
     const std::pair key{index, sided};
     const auto known = ids_.find(key);
     if (known != ids_.end()) {
-        if (known->second.empty()) throw Told();
+        if (known->second.empty()) throw AlreadyReported();
         return known->second;
     }
     const Location place = list_.place_of(index);
@@ -80,7 +80,7 @@ const std::string& Bsdfs::id_of(std::size_t index, bool sided) {
     });
     open_.erase(key);
     ids_[key] = made.value_or("");
-    if (!made) throw Told();
+    if (!made) throw AlreadyReported();
     return ids_[key];
 }
 
@@ -98,7 +98,7 @@ void Bsdfs::add(Element& parent, const nlohmann::json& value, const Location& pl
             std::vector<std::string> names;
             for (std::size_t i = 0; i < list_.size(); ++i)
                 if (list_[i].is_object()) names.push_back(text_in(list_[i], "name"));
-            if (list_.broken()) throw Told();
+            if (list_.broken()) throw AlreadyReported();
             throw InputError(place, fmt::format("there is no bsdf '{}'{}", printable(name), did_you_mean(name, names)));
         }
         add_reference(parent, id_of(*index, sided), place);
@@ -112,7 +112,7 @@ void Bsdfs::add(Element& parent, const nlohmann::json& value, const Location& pl
         return BsdfMaker({value, place, importing_.notes}, *this, textures_, importing_, sided).make();
     });
     --depth_;
-    if (!made) throw Told();
+    if (!made) throw AlreadyReported();
     reader::add(parent, *made);
 }
 

@@ -53,7 +53,7 @@ void Primitives::add(JsonObject primitive) {
 
 Primitives::Shapes Primitives::make_surface(JsonObject& primitive, const std::string& type) {
     const Mat4 m = read_transform(primitive);
-    if (primitive.is_wrong("transform")) throw Told();
+    if (primitive.is_wrong("transform")) throw AlreadyReported();
     if (type == "mesh") return make_mesh(primitive, m);
     if (!is_without_shear(m))
         throw InputError(primitive.place_of("transform"),

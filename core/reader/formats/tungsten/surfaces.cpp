@@ -138,7 +138,7 @@ Primitives::Shapes Primitives::make_mesh(JsonObject& primitive, const Mat4& m) {
     if (has_several) look.materials = bsdf->size();
     if (look.materials == 0) throw InputError(primitive.place_of("bsdf"), "bsdf is empty, expected at least one");
     const std::optional<std::string> path = find_named_file(primitive, "file", importing_);
-    if (!path && primitive.has("file")) throw Told();
+    if (!path && primitive.has("file")) throw AlreadyReported();
     if (!path) primitive.fail_missing("file", "the name of a mesh");
     const std::vector<MeshPart>& parts = meshes_.read(*path, primitive.place_of("file"), look);
     double area = 0.0;

@@ -84,12 +84,12 @@ std::optional<TextureValue> Textures::find(JsonObject& object, const std::string
     return importing_.notes.problems.attempt(place, [&]() -> TextureValue {
         if (value->is_string()) {
             const std::optional<std::string> path = find_named_file(object, name, importing_);
-            if (!path) throw Told();
+            if (!path) throw AlreadyReported();
             return make_bitmap(*path, nullptr, place, kind);
         }
         if (value->is_object()) return read({*value, place, importing_.notes}, kind);
         const std::optional<Vec3> constant = find_vector(object, name);
-        if (!constant) throw Told();
+        if (!constant) throw AlreadyReported();
         return {place, kind == Kind::color ? *constant : Rgb(constant->r)};
     });
 }
@@ -106,7 +106,7 @@ TextureValue Textures::read(JsonObject texture, Kind kind) {
         return {texture.place(), kind == Kind::color ? value.value_or(Vec3(0.0)) : Rgb(value.value_or(Vec3(0.0)).r)};
     }
     const std::optional<std::string> path = find_named_file(texture, "file", importing_);
-    if (!path && texture.has("file")) throw Told();
+    if (!path && texture.has("file")) throw AlreadyReported();
     if (!path) texture.fail_missing("file", "the name of a picture");
     TextureValue value = make_bitmap(*path, &texture, texture.place(), kind);
     texture.finish();

@@ -12,11 +12,11 @@ namespace neumann::known {
 
 namespace {
 
-struct Place {
+struct Translation {
     const char* name;
     Vec3 to;
 };
-constexpr Place places[] = {{"here", {0.7, -0.6, 0.4}}, {"1km-away", {700.0, -600.0, 400.0}}};
+constexpr Translation translations[] = {{"here", {0.7, -0.6, 0.4}}, {"1km-away", {700.0, -600.0, 400.0}}};
 
 // The rotation ensures that no face is along an axis.
 Mat4 turned_and_moved(const Vec3& to) { return glm::rotate(glm::translate(Mat4(1.0), to), 1.1, glm::normalize(Vec3(1, 2, 3))); }
@@ -169,21 +169,21 @@ void boxes_at_random(Figures& figures, std::uint64_t seed, const Mat4& to_world)
 
 Cases extreme_close_cases() {
     Cases cases;
-    for (const Place& place : places) {
-        const Mat4 to_world = turned_and_moved(place.to);
+    for (const Translation& translation : translations) {
+        const Mat4 to_world = turned_and_moved(translation.to);
         for (const double half_length : {20.0, 2e4})
             for (const double p : {1e-3, 1e-6})
-                cases.push_back({fmt::format("extreme/close/groove-{:g}-{:g}-{}", half_length, p, place.name),
+                cases.push_back({fmt::format("extreme/close/groove-{:g}-{:g}-{}", half_length, p, translation.name),
                                  "rho^i s (1-s)^(i-1), s = sin^2(a/2)",
                                  [=](Figures& figures, std::uint64_t seed) { groove(figures, seed, half_length, p, to_world); }});
         for (const double half_width : {10.0, 1e3, 1e6})
             for (const double gap : {1e-3, 1e-6})
-                cases.push_back({fmt::format("extreme/close/cube-{:g}-above-{:g}-{}", gap, half_width, place.name),
+                cases.push_back({fmt::format("extreme/close/cube-{:g}-above-{:g}-{}", gap, half_width, translation.name),
                                  "form factors of rectangles: exact", [=](Figures& figures, std::uint64_t seed) {
                                      hovering_cube(figures, seed, half_width, gap, to_world);
                                  }});
         for (const double gap : {0.0, 1e-6, -1e-6})
-            cases.push_back({fmt::format("extreme/close/boxes-{:g}-apart-{}", gap, place.name), "rho^i: exact",
+            cases.push_back({fmt::format("extreme/close/boxes-{:g}-apart-{}", gap, translation.name), "rho^i: exact",
                              [=](Figures& figures, std::uint64_t seed) {
                                  bodies_in_furnace(
                                      figures, seed,
@@ -191,11 +191,11 @@ Cases extreme_close_cases() {
                                       box({-0.5, -0.5, 0.5 + gap}, {0, 0, 0.7}), box({1.0 - 0.2, 0.3, 0.3}, {1.0 - gap, 0.5, 0.5})},
                                      to_world);
                              }});
-        cases.push_back({fmt::format("extreme/close/boxes-at-random-{}", place.name), "rho^i: exact",
+        cases.push_back({fmt::format("extreme/close/boxes-at-random-{}", translation.name), "rho^i: exact",
                          [=](Figures& figures, std::uint64_t seed) { boxes_at_random(figures, seed, to_world); }});
         // A sphere that touches the floor, one sunk into a wall, two that overlap, and a closed cylinder on the floor.
         cases.push_back(
-            {fmt::format("extreme/close/round-{}", place.name), "rho^i: exact", [=](Figures& figures, std::uint64_t seed) {
+            {fmt::format("extreme/close/round-{}", translation.name), "rho^i: exact", [=](Figures& figures, std::uint64_t seed) {
                  const double r = 0.25;
                  bodies_in_furnace(figures, seed,
                                    {Sphere{{0.5, 0.5, r}, r}, Sphere{{0.9, -0.5, 0.4}, r}, Sphere{{-0.5, 0.5, 1}, r},

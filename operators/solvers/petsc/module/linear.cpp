@@ -48,8 +48,8 @@ public:
         return std::string(solver) + "/" + preconditioner;
     }
 
-    End solve(const Vector& b, Vector& x, double tolerance, int most, const Look& look) override {
-        look_ = &look;
+    End solve(const Vector& b, Vector& x, double tolerance, int most, const OnIterate& on_iterate) override {
+        on_iterate_ = &on_iterate;
         copy(b, b_);
         copy(x, x_);
         check(KSPSetTolerances(ksp_, tolerance, 0.0, PETSC_DEFAULT, std::max(most, 1)));
@@ -77,7 +77,7 @@ private:
                 copy(x, found);
                 return found;
             };
-            (*static_cast<const Linear*>(context)->look_)(static_cast<int>(iteration), residual, iterate);
+            (*static_cast<const Linear*>(context)->on_iterate_)(static_cast<int>(iteration), residual, iterate);
         });
     }
 
@@ -85,7 +85,7 @@ private:
     OwnedMat shell_, entries_;
     OwnedVec b_, x_;
     Owned<KSP, KSPDestroy> ksp_;
-    const Look* look_ = nullptr;
+    const OnIterate* on_iterate_ = nullptr;
 };
 
 }  // namespace
