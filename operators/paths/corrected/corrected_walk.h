@@ -20,13 +20,10 @@
 #include "operators/paths/corrected/approximation.h"
 #include "operators/paths/corrected/diffuse_sides.h"
 #include "operators/paths/corrected/shared_points.h"
-#include "operators/paths/walk/continuation.h"
+#include "operators/paths/walk/camera_walk.h"
 #include "operators/paths/walk/coupling.h"
 #include "operators/paths/walk/guided_continuation.h"
-#include "operators/paths/walk/observer.h"
-#include "operators/paths/walk/shadow_rays.h"
 #include "operators/paths/walk/term_samples.h"
-#include "operators/paths/walk/walk_settings.h"
 
 #include <algorithm>
 #include <span>
@@ -89,6 +86,9 @@ public:
                     const Observer& observer = {}) const;
 
 private:
+    template <class LightSamplers, class Samplers, class Observer>
+    struct Steps;
+
     std::size_t quantities() const { return static_cast<std::size_t>(settings_.bounces) + 2; }
     bool has_rest() const { return settings_.rest_probability > 0.0; }
     // R samples the next direction, from what the fields tell of the light that arrives (guided/direction_tables.h),
@@ -144,113 +144,117 @@ private:
 };
 
 template <class LightSamplers, class Samplers, class Observer>
-NEUMANN_HOT void CorrectedWalk::operator()(CorrectedWalkers& walkers, const LightSamplers& light_sampler,
-                                           const Samplers& sampler_of, TermSamples& out, const Observer& observer) const {
-    const Geometry& T = scene_.geometry;
-    const Emitters& emitters = scene_.emitters;
-    const Ending ending = settings_.ending();
-    const int N = settings_.bounces;
+struct CorrectedWalk::Steps : WalkSteps<CorrectedWalkers> {
+    const CorrectedWalk& walk;
+    const LightSamplers& light_sampler;
+    const Samplers& sampler_of;
+    TermSamples& out;
+    const Observer& observer;
 
-    // L = Le + K L: apply K once more, then add Le at the next vertex, and read the rest of L there or go on.
-    for (int bounce = 1; ending.reach(bounce, walkers, std::span(walkers.samplers), out.given_up); ++bounce) {
-        const auto q = static_cast<std::size_t>(std::min(bounce, N + 1));
-        // Adds light that is found after this reflection, and that was reflected k times before.
-        const auto find_later = [&](std::uint32_t i, std::size_t k, const Rgb& x) {
-            const auto reflected = static_cast<std::size_t>(bounce) + k;
-            if (reflected > static_cast<std::size_t>(N) && !has_rest()) return;
-            const std::size_t quantity = std::min(reflected, quantities() - 1);
-            out.quantities[walkers.walker[i].path * quantities() + quantity] += x;
-            observer.finds(i, quantity, x);
-        };
-        const auto find = [&](std::uint32_t i, const Rgb& x) { find_later(i, 0, x); };
-        const auto sample_lights = [&](const auto& sampler_at) {
-            for (std::size_t light_sample = 0; light_sample < direct_.light_samples(); ++light_sample) {
-                walkers.keep_if([&](CorrectedWalker& w, std::uint32_t i) {
-                    const SurfaceSide side = scene_.materials.side(w.x, w.wo);
-                    if (!side.bsdf) return false;
-                    choose_light_sample(direct_, light_sample, MaterialContinuation(), w.directions, side,
-                                        side.p.frame.to_local(w.wo), sampler_at(i), w);
-                    return true;
-                });
-                out.rays[q] += cast_shadow_rays(scene_, T, direct_, LeftOut(), bounce, walkers, observer, find);
-            }
-        };
-
-        // R at the vertices of a walk: samples the lights. At first diffuse vertices it does so more often and splits the walk.
+    void find(std::uint32_t i, std::size_t q, const Rgb& x) {
+        out.quantities[walkers.walker[i].path * walk.quantities() + q] += x;
+        observer.finds(i, q, x);
+    }
+    // Adds light that is found after this reflection, and that was reflected k times before.
+    void find_later(std::uint32_t i, int bounce, std::size_t k, const Rgb& x) {
+        const auto reflected = static_cast<std::size_t>(bounce) + k;
+        if (reflected > static_cast<std::size_t>(settings.bounces) && !walk.has_rest()) return;
+        find(i, std::min(reflected, walk.quantities() - 1), x);
+    }
+    template <class SamplerAt>
+    void sample_lights(int bounce, std::size_t q, const SamplerAt& sampler_at) {
+        for (std::size_t number = 0; number < direct.light_samples(); ++number) {
+            walkers.keep_if([&](CorrectedWalker& w, std::uint32_t i) {
+                const SurfaceSide side = scene.materials.side(w.x, w.wo);
+                if (!side.bsdf) return false;
+                choose_light_sample(direct, number, MaterialContinuation(), w.directions, side, side.p.frame.to_local(w.wo),
+                                    sampler_at(i), w);
+                return true;
+            });
+            rays[q] += cast_shadow_rays(scene, scene.geometry, direct, LeftOut(), bounce, walkers, observer,
+                                        [&](std::uint32_t i, const Rgb& light) { find(i, q, light); });
+        }
+    }
+    // R samples the lights. At first diffuse vertices it does so more often and splits the walk.
+    void sample_lights_and_split(int bounce, std::size_t q) {
+        const FirstVertex& first = walk.first_;
         walkers.single.clear();
         walkers.splitting.clear();
         for (const std::uint32_t i : walkers.alive) {
             CorrectedWalker& w = walkers.walker[i];
-            const Bsdf* bsdf = w.is_split || bounce > N ? nullptr : scene_.materials.side(w.x, w.wo).bsdf;
+            const Bsdf* bsdf = w.is_split || bounce > settings.bounces ? nullptr : scene.materials.side(w.x, w.wo).bsdf;
             const bool splits = bsdf && std::holds_alternative<Diffuse>(*bsdf);
-            w.directions = splits ? static_cast<double>(first_.directions) / first_.lights : 1.0;
-            w.clamp = points_ ? (splits ? first_.clamp : later_clamp) * of_area_ : 0.0;
-            w.survival = splits ? first_.survival : 1.0;
+            w.directions = splits ? static_cast<double>(first.directions) / first.lights : 1.0;
+            w.clamp = walk.points_ ? (splits ? first.clamp : later_clamp) * walk.of_area_ : 0.0;
+            w.survival = splits ? first.survival : 1.0;
             w.walks_per_point = 1.0;
-            if (splits) w.beta /= static_cast<double>(first_.directions);
+            if (splits) w.beta /= static_cast<double>(first.directions);
             (splits ? walkers.splitting : walkers.single).push_back(i);
         }
         if (!walkers.single.empty()) {
             walkers.alive = walkers.single;
-            sample_lights([&](std::uint32_t i) -> Sampler& { return walkers.samplers[i]; });
+            sample_lights(bounce, q, [&](std::uint32_t i) -> Sampler& { return walkers.samplers[i]; });
             walkers.single = walkers.alive;
         }
         if (!walkers.splitting.empty()) {
             walkers.alive = walkers.splitting;
-            for (std::uint32_t l = 0; l < first_.lights; ++l)
-                sample_lights([&](std::uint32_t i) -> Sampler& { return light_sampler(i, l); });
+            for (std::uint32_t l = 0; l < first.lights; ++l)
+                sample_lights(bounce, q, [&](std::uint32_t i) -> Sampler& { return light_sampler(i, l); });
             for (const std::uint32_t i : walkers.splitting) {
                 walkers.walker[i].is_split = true;
-                for (std::uint32_t g = 0; g < first_.directions; ++g) {
+                for (std::uint32_t g = 0; g < first.directions; ++g) {
                     walkers.single.push_back(static_cast<std::uint32_t>(walkers.walker.size()));
                     walkers.walker.push_back(walkers.walker[i]);
                     walkers.walker.back().walks_per_point =
-                        g < first_.points ? static_cast<double>(first_.directions) / first_.points : 0.0;
+                        g < first.points ? static_cast<double>(first.directions) / first.points : 0.0;
                     walkers.samplers.push_back(sampler_of(i, g));
                 }
             }
         }
         walkers.alive = walkers.single;
-
-        // R chooses directions and points, and T finds which points are visible.
+    }
+    // R also chooses directions and points, and T finds which points are visible.
+    bool reflect(int bounce, std::size_t q) {
+        sample_lights_and_split(bounce, q);
         walkers.with_shadow_ray.clear();
         walkers.keep_if([&](CorrectedWalker& w, std::uint32_t i) {
-            if (!choose_direction(w, N - bounce, walkers.samplers[i])) return false;
-            if (!is_black(w.point_weight) && !ending.is_last(bounce)) walkers.with_shadow_ray.push_back(i);
+            if (!walk.choose_direction(w, settings.bounces - bounce, walkers.samplers[i])) return false;
+            if (!is_black(w.point_weight) && !settings.ending().is_last(bounce)) walkers.with_shadow_ray.push_back(i);
             return true;
         });
+        const SharedPoints* const points = walk.points_;
         test_visibility(
-            T, walkers.with_shadow_ray.size(), RayCaster::Rays::any,
+            scene.geometry, walkers.with_shadow_ray.size(), RayCaster::Rays::any,
             [&](std::size_t k) {
                 const CorrectedWalker& w = walkers.walker[walkers.with_shadow_ray[k]];
-                return std::pair<const SurfacePoint&, const SurfacePoint&>(w.x, (*points_)[w.point].y);
+                return std::pair<const SurfacePoint&, const SurfacePoint&>(w.x, (*points)[w.point].y);
             },
             [&](std::size_t k, bool seen) {
                 const std::uint32_t i = walkers.with_shadow_ray[k];
                 const CorrectedWalker& w = walkers.walker[i];
-                const SurfacePoint& y = (*points_)[w.point].y;
-                observer.joins(i, bounce, w.x, y, seen);
+                observer.joins(i, bounce, w.x, (*points)[w.point].y, seen);
                 if (!seen) return;
-                const Rgb* errors = points_->errors_at(w.point);
-                for (std::size_t k = 1; k <= points_->fields(); ++k) find_later(i, k, w.point_weight * errors[k - 1]);
+                const Rgb* errors = points->errors_at(w.point);
+                for (std::size_t f = 1; f <= points->fields(); ++f) find_later(i, bounce, f, w.point_weight * errors[f - 1]);
             });
-        out.rays[q] += walkers.with_shadow_ray.size();
-
-        // T follows the direction. The light that it hits, Le, is added; then the fields are read, or the walk goes on.
-        walkers.keep_if([&](CorrectedWalker& w, std::uint32_t i) {
-            return w.pdf != 0.0 && !is_black(w.beta) && ending.live(bounce, w, w.reflected, walkers.samplers[i]);
-        });
-        out.rays[q] += walkers.alive.size();
-        walkers.follow(T, bounce, observer, [&](CorrectedWalker& w, std::uint32_t i) {
-            w.wo = -w.w;
-            if (emitters.is_emitter(w.x.shape)) {
-                const Rgb emitted = emitters.emitted(w.x, w.wo);
-                if (!is_black(emitted)) find(i, w.beta * emitted * direct_.weight_of_hit(w.pdf * w.directions, w.from, w.w, w.x));
-            }
-            return !w.x.is_infinite() && !ending.is_last(bounce) &&
-                   goes_on(w, walkers.samplers[i], walkers.fields, [&](std::size_t k, const Rgb& x) { find_later(i, k, x); });
-        });
+        rays[q] += walkers.with_shadow_ray.size();
+        return true;
     }
+    double directions_per_light_sample(const CorrectedWalker& w) const { return w.directions; }
+    // Reads the fields at z, or goes on.
+    bool goes_on(CorrectedWalker& w, std::uint32_t i, int bounce) {
+        return !settings.ending().is_last(bounce) &&
+               walk.goes_on(w, walkers.samplers[i], walkers.fields,
+                            [&](std::size_t k, const Rgb& x) { find_later(i, bounce, k, x); });
+    }
+};
+
+template <class LightSamplers, class Samplers, class Observer>
+NEUMANN_HOT void CorrectedWalk::operator()(CorrectedWalkers& walkers, const LightSamplers& light_sampler,
+                                           const Samplers& sampler_of, TermSamples& out, const Observer& observer) const {
+    Steps<LightSamplers, Samplers, Observer> steps{
+        {scene_, direct_, settings_, walkers, out.rays}, *this, light_sampler, sampler_of, out, observer};
+    camera_walk(walkers.samplers, walkers, steps, out.given_up, observer);
 }
 
 }  // namespace neumann

@@ -99,7 +99,7 @@ NEUMANN_HOT void walk_reusing(const Scene& scene, const DirectLightSampler& dire
     tails.keep_if([&](Walker& tail, std::uint32_t i) {
         const Walker& w = walkers.walker[i];
         FirstEdge& c = edges[i];
-        if (!walkers.reads[i] || w.x.is_infinite()) return false;
+        if (!walkers.reads[i]) return false;
         c.y = w.x;
         const bool front = glm::dot(c.y.normal, w.wo) > 0.0;
         c.ny = front ? c.y.normal : -c.y.normal;

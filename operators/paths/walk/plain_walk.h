@@ -1,23 +1,46 @@
-// The walk of walk.h in its plainest form, for walks that change their number or end before the light does. Before each
+// The camera walk in its plainest form, for walks that change their number or end before the light does. Before each
 // reflection `branches(bounce)` may replace the walkers that are alive. At each vertex `reads(i, walker, side, bounce)`
 // returns whether the walk ends, after the direct light of this vertex, at the next vertex. Afterwards walkers.reads is
-// true for walks that ended so, and their x is the next vertex. Leaves nothing out.
+// true for walks that ended so at a point that is not infinite, and their x is this point. Leaves nothing out.
 #pragma once
 
 #include "core/base/hot.h"
-#include "operators/paths/walk/continuation.h"
-#include "operators/paths/walk/observer.h"
-#include "operators/paths/walk/shadow_rays.h"
-#include "operators/paths/walk/walk_settings.h"
+#include "operators/paths/walk/camera_walk.h"
 
-#include <algorithm>
+#include <cstdint>
 #include <span>
 #include <vector>
 
 namespace neumann {
 
 struct PlainWalkers : Walkers {
-    std::vector<char> reads;  // whether the walk ends at the next vertex that it finds
+    std::vector<char> is_last;  // whether the walk ends at the next vertex
+    std::vector<char> reads;    // whether it has ended so
+};
+
+template <class Samplers, class AnyWalkers, class Branches, class Reads, class Find, class Observer>
+struct PlainSteps : WalkSteps<AnyWalkers> {
+    Samplers& samplers;
+    const Branches& branches;
+    const Reads& reads;
+    const Find& find;
+    const Observer& observer;
+
+    bool reflect(int bounce, std::size_t q) {
+        branches(bounce);
+        AnyWalkers& all = this->walkers;
+        all.is_last.resize(all.walker.size());
+        all.reads.resize(all.walker.size());
+        sample_reflections(
+            *this, samplers, bounce, q,
+            [&](std::uint32_t i, const Walker& w, const SurfaceSide& side, std::size_t number) {
+                if (number == 1) all.is_last[i] = !this->settings.ending().is_last(bounce) && reads(i, w, side, bounce);
+                return true;
+            },
+            observer);
+        return true;
+    }
+    bool goes_on(Walker&, std::uint32_t i, int) const { return !(this->walkers.reads[i] = this->walkers.is_last[i]); }
 };
 
 // Continues walks from their first vertices. samplers[i] gives the random numbers of walker i; find(i, q, light) adds
@@ -26,51 +49,10 @@ template <class Samplers, class AnyWalkers, class Branches, class Reads, class F
 NEUMANN_HOT void plain_walk(const Scene& scene, const DirectLightSampler& direct, const WalkSettings& settings, Samplers& samplers,
                             AnyWalkers& walkers, std::span<std::uint64_t> rays, std::uint64_t& given_up, const Branches& branches,
                             const Reads& reads, const Find& find, const Observer& observer = {}) {
-    const Geometry& T = scene.geometry;
-    const Emitters& emitters = scene.emitters;
-    const Ending ending = settings.ending();
-    const int N = settings.bounces;
     walkers.reads.assign(walkers.walker.size(), 0);
-    for (int bounce = 1; ending.reach(bounce, walkers, samplers, given_up); ++bounce) {
-        const auto q = static_cast<std::size_t>(std::min(bounce, N + 1));
-        branches(bounce);
-        walkers.reads.resize(walkers.walker.size());
-        // R samples the lights and, along with the last light sample, the next direction.
-        const std::size_t light_samples = std::max<std::size_t>(direct.light_samples(), 1);
-        for (std::size_t light_sample = 1; light_sample <= light_samples; ++light_sample) {
-            walkers.keep_if([&](Walker& w, std::uint32_t i) {
-                const SurfaceSide side = scene.materials.side(w.x, w.wo);
-                if (!side.bsdf) return false;
-                const Vec3 wo = side.p.frame.to_local(w.wo);
-                if (light_sample == 1) walkers.reads[i] = !ending.is_last(bounce) && reads(i, w, side, bounce);
-                w.shadow_ray.value = Rgb(0.0);
-                if (direct.light_samples() > 0)
-                    choose_light_sample(direct, light_sample % light_samples, MaterialContinuation(), 1.0, side, wo, samplers[i],
-                                        w);
-                if (light_sample < light_samples) return true;
-                w.leave(side, MaterialContinuation().sample(side, wo, samplers[i]));
-                return true;
-            });
-            rays[q] += cast_shadow_rays(scene, T, direct, LeftOut(), bounce, walkers, observer,
-                                        [&](std::uint32_t i, const Rgb& light) { find(i, q, light); });
-        }
-        walkers.keep_if([&](Walker& w, std::uint32_t i) {
-            if (w.pdf != 0.0 && !is_black(w.beta) && ending.live(bounce, w, w.reflected, samplers[i])) return true;
-            walkers.reads[i] = 0;
-            return false;
-        });
-
-        // T follows the direction. The light that it hits, Le, is added.
-        rays[q] += walkers.alive.size();
-        walkers.follow(T, bounce, observer, [&](Walker& w, std::uint32_t i) {
-            w.wo = -w.w;
-            if ((direct.counts_what_is_hit() || w.pdf == delta_pdf) && emitters.is_emitter(w.x.shape)) {
-                const Rgb emitted = emitters.emitted(w.x, w.wo);
-                if (!is_black(emitted)) find(i, q, w.beta * emitted * direct.weight_of_hit(w.pdf, w.from, w.w, w.x));
-            }
-            return !walkers.reads[i] && !w.x.is_infinite();
-        });
-    }
+    PlainSteps<Samplers, AnyWalkers, Branches, Reads, Find, Observer> steps{
+        {scene, direct, settings, walkers, rays}, samplers, branches, reads, find, observer};
+    camera_walk(samplers, walkers, steps, given_up, observer);
 }
 
 }  // namespace neumann
