@@ -1,8 +1,8 @@
 // The options of a request: one table for the command line, its help, Python's keywords and the requests on disk.
 #pragma once
 
-#include "apps/requests/form.h"
 #include "core/base/error.h"
+#include "core/base/form.h"
 
 #include <fmt/format.h>
 
@@ -140,10 +140,7 @@ Option<Request> option(std::string name, std::string type, std::string help, Mem
 
 template <class Request, class Member>
 Option<Request> flag(std::string name, std::string help, Member member) {
-    Form<bool> form{
-        [](const std::string& text) { return text == "true" || text == "false" ? std::optional(text == "true") : std::nullopt; },
-        [](bool on) { return std::string(on ? "true" : ""); }, not_a("true or false")};
-    Option<Request> o = option<Request>(std::move(name), "", std::move(help), member, form);
+    Option<Request> o = option<Request>(std::move(name), "", std::move(help), member, yes_or_no());
     o.kind = OptionWords::Kind::flag;
     return o;
 }

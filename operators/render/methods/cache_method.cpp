@@ -19,12 +19,11 @@ std::vector<MethodOption> Cache::own_options() {
             "split-sphere (the distances of what they see)",
             spacings, [](const Cache& m) { return m.records; }, [](Cache& m, Spacing s) { m.records = s; }),
         option(
-            MethodOption::Kind::text, "accuracy", "A",
+            "accuracy", "A",
             "For cache: the error allowed to records; with hessian relative, on average within the usual distance of records "
             "(default 0.05); with split-sphere their reach as a part of the distance of what they see (default 0.25). A larger one "
             "makes fewer records",
-            [](const Cache& m) { return m.accuracy; }, [](Cache& m, double a) { m.accuracy = a; }, read_length,
-            [](const std::optional<double>& a) { return a ? fmt::format("{}", *a) : ""; }, "a number above 0")};
+            [](const Cache& m) { return m.accuracy; }, [](Cache& m, double a) { m.accuracy = a; }, above_zero())};
 }
 
 CacheSettings Cache::settings() const {

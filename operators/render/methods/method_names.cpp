@@ -1,6 +1,6 @@
 #include "operators/render/methods/method_options.h"
 #include "operators/render/methods/method_table.h"
-#include "operators/render/methods/named_values.h"
+#include "core/base/named_values.h"
 
 namespace neumann {
 

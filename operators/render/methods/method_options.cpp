@@ -13,8 +13,6 @@ namespace neumann {
 
 namespace {
 
-using Kind = MethodOption::Kind;
-
 // A value of --direct: everything in DirectLightSettings but the choice among lights.
 struct Strategy {
     DirectLight direct = DirectLight::mis;
@@ -46,7 +44,7 @@ std::optional<Roulette> read_roulette(const std::string& text) {
     if (text == "none") return Roulette{};
     if (text == "albedo") return Roulette{Roulette::Kind::albedo};
     if (text == "throughput") return Roulette{Roulette::Kind::throughput};
-    const auto survival = number<double>(text);
+    const auto survival = number_in<double>(text);
     return survival && *survival > 0.0 && *survival <= 1.0 ? std::optional(Roulette{Roulette::Kind::fixed, *survival})
                                                            : std::nullopt;
 }
@@ -66,12 +64,9 @@ std::string print_roulette(const Roulette& roulette) {
 }
 
 std::optional<Split> read_split(const std::string& text) {
-    constexpr int most = 4096;
-    const std::size_t comma = text.find(',');
-    if (comma == std::string::npos) return std::nullopt;
-    const auto lights = number<int>(text.substr(0, comma)), walks = number<int>(text.substr(comma + 1));
-    const auto in_range = [](const std::optional<int>& n) { return n && *n >= 1 && *n <= most; };
-    return in_range(lights) && in_range(walks) ? std::optional(Split{*lights, *walks}) : std::nullopt;
+    const auto in_range = [](int n) { return n >= 1 && n <= 4096; };
+    const auto numbers = two_whole(text, ',');
+    return numbers && std::ranges::all_of(*numbers, in_range) ? std::optional(Split{(*numbers)[0], (*numbers)[1]}) : std::nullopt;
 }
 
 std::vector<MethodOption> options_of_walks() {
@@ -95,18 +90,18 @@ std::vector<MethodOption> options_of_walks() {
             },
             [](auto& m, LightChoice c) { m.direct.lights = c; }),
         option(
-            Kind::text, "roulette", "HOW",
+            "roulette", "HOW",
             "How Russian roulette ends walks: none (not before the last picture, the default), albedo (by what the last reflection "
             "left of the weight), throughput (by what all reflections left), or a probability of going on, such as 0.9",
             [](const auto& m) requires requires { m.roulette; } { return m.roulette; },
-            [](auto& m, const Roulette& r) { m.roulette = r; }, read_roulette, print_roulette,
-            "none, albedo, throughput or a number above 0 and at most 1"),
+            [](auto& m, const Roulette& r) { m.roulette = r; },
+            Form<Roulette>{read_roulette, print_roulette, not_a("none, albedo, throughput or a number above 0 and at most 1")}),
         option(
-            Kind::text, "split", "L,C",
+            "split", "L,C",
             "At the first surface point of each camera ray, take L light samples and let C walks go on; default 1,1",
             [](const auto& m) requires requires { m.split; } { return m.split; }, [](auto& m, const Split& s) { m.split = s; },
-            read_split, [](const Split& s) { return fmt::format("{},{}", s.lights, s.walks); },
-            "two whole numbers from 1 to 4096 with a comma between, such as 8,8"),
+            Form<Split>{read_split, [](const Split& s) { return fmt::format("{},{}", s.lights, s.walks); },
+                        not_a("two whole numbers from 1 to 4096 with a comma between, such as 8,8")}),
         choice(
             "sampler", "NAME",
             "For the methods that make paths, the random numbers: sobol (scrambled Sobol' points) or independent; default the "

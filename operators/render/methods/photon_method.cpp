@@ -10,12 +10,11 @@ std::vector<MethodOption> Photon::own_options() {
             "photons", "N", "For photon: the number of paths from the lights in a pass (a replicate)", 1, 1u << 28,
             [](const Photon& m) { return m.photons; }, [](Photon& m, std::uint32_t n) { m.photons = n; }),
         option(
-            MethodOption::Kind::text, "radius", "R",
+            "radius", "R",
             "For photon: the radius within which photons are read in the first pass, in the scene's units; smaller in later ones; "
             "default by "
             "a pilot",
-            [](const Photon& m) { return m.radius; }, [](Photon& m, double r) { m.radius = r; }, read_length,
-            [](const std::optional<double>& r) { return r ? fmt::format("{}", *r) : ""; }, "a length above 0"),
+            [](const Photon& m) { return m.radius; }, [](Photon& m, double r) { m.radius = r; }, above_zero("a length above 0")),
         flag(
             "gather", "For photon: sample one more reflection before the map is read (final gathering)",
             [](const Photon& m) { return m.gather; }, [](Photon& m, bool on) { m.gather = on; })};

@@ -17,25 +17,22 @@ constexpr std::uint32_t reusing_pixels = 8;
 
 std::optional<TreeGoal> read_tree(const std::string& text) {
     if (text == "sum") return std::make_optional<TreeGoal>();
-    const auto bounce = number<int>(text);
+    const auto bounce = number_in<int>(text);
     return bounce && *bounce >= 1 && *bounce <= most_depths_of_tree ? std::optional(TreeGoal{*bounce}) : std::nullopt;
 }
 
-std::string print_tree(const std::optional<TreeGoal>& tree) {
-    if (!tree) return "";
-    return tree->bounce ? fmt::format("{}", *tree->bounce) : "sum";
-}
+std::string print_tree(const TreeGoal& tree) { return tree.bounce ? fmt::format("{}", *tree.bounce) : "sum"; }
 
 }  // namespace
 
 std::vector<MethodOption> Walk::own_options() {
     return {
         option(
-            MethodOption::Kind::text, "tree", "WHAT",
+            "tree", "WHAT",
             "For walk: split walks, and end them by Russian roulette, by the numbers of samples at each depth that a pilot finds "
             "best for the sum of all bounces (sum) or for one bounce (its number)",
-            [](const Walk& m) { return m.tree; }, [](Walk& m, const TreeGoal& t) { m.tree = t; }, read_tree, print_tree,
-            fmt::format("sum or a bounce from 1 to {}", most_depths_of_tree)),
+            [](const Walk& m) { return m.tree; }, [](Walk& m, const TreeGoal& t) { m.tree = t; },
+            Form<TreeGoal>{read_tree, print_tree, not_a(fmt::format("sum or a bounce from 1 to {}", most_depths_of_tree))}),
         flag(
             "reuse",
             "For walk: let the walks of eight pixels in a row use each other's tails, from the second surface on where both are "

@@ -1,7 +1,7 @@
 // The textual form of a value, as users give it on the command line, in Python, and in files.
 #pragma once
 
-#include "operators/render/methods/named_values.h"
+#include "core/base/named_values.h"
 
 #include <fmt/format.h>
 
@@ -67,8 +67,20 @@ inline Form<double> real(std::function<bool(double)> fits, std::string expected)
     return {read, [](const double& x) { return fmt::format("{}", x); }, not_a(std::move(expected)), true};
 }
 
-inline Form<double> above_zero() {
-    return real([](double x) { return x > 0.0; }, "a number above 0");
+inline Form<double> above_zero(std::string expected = "a number above 0") {
+    return real([](double x) { return x > 0.0; }, std::move(expected));
+}
+
+inline Form<bool> yes_or_no() {
+    return {
+        [](const std::string& text) { return text == "true" || text == "false" ? std::optional(text == "true") : std::nullopt; },
+        [](bool on) { return on ? "true" : ""; }, not_a("true or false")};
+}
+
+template <class Value>
+Form<Value> one_of_named(const Named<Value>& all) {
+    return {[&all](const std::string& text) { return value(all, text); }, [&all](const Value& v) { return name(all, v); },
+            [&all](const std::string& text) { return not_in(text, names(all)); }};
 }
 
 // Two whole numbers with a sign between them: "3/16", "19,160".
