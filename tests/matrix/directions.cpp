@@ -1,4 +1,5 @@
 // Surfaces that are not diffuse: R between cells of directions.
+#include "core/material/fresnel.h"
 #include "core/sampling/sampler.h"
 #include "operators/algebra/neumann_series.h"
 #include "operators/experiments/known/enclosures.h"
@@ -37,20 +38,26 @@ TEST(ReflectionBlock, IsTheMeanOfFsBetweenCells) {
     const Bsdf bsdf = rough(0.5);
     const ReflectionBlock block(bsdf, cells);
     const ReflectionBlock::Matrix& B = block.matrix(0);
-    // 4096 samples a row, of which a cell gets at least a twentieth part or so little that it does not matter.
+    // Each entry is the mean of two rows' 4096 samples, whose standard error is at most 0.0011 (64 seeds), and the midpoint rule is
+    // right to 0.0004. 4.5 standard errors of 136 different entries: a false alarm in a thousand seeds.
     for (std::uint32_t i = 0; i < cells.size(); ++i)
         for (std::uint32_t j = 0; j < cells.size(); ++j)
-            EXPECT_NEAR(B.coeff(i, j), integral(bsdf, cells, i, j, 10), 0.01) << i << " " << j;
+            EXPECT_NEAR(B.coeff(i, j), integral(bsdf, cells, i, j, 10), 4.5 * 0.0011 + 0.0004) << i << " " << j;
 }
 
+// The albedo of 4096 samples has a standard error that depends on α (the largest of 24 seeds is given here); a row of B has the
+// mean of two such, and the albedo of 16384 Sobol points beside it a third of that error. 208 comparisons at 4.2 standard errors: a
+// false alarm in 180 seeds.
 TEST(ReflectionBlock, IsSymmetricAndItsRowsSumToTheAlbedo) {
-    for (const double alpha : {0.05, 0.2, 0.5, 1.0})
+    for (const auto& [alpha, of_albedo] :
+         {std::pair(0.05, 6e-4), std::pair(0.2, 5.5e-4), std::pair(0.5, 3e-4), std::pair(1.0, 7e-5)})
         for (const std::uint32_t k : {2u, 4u, 8u, 16u}) {
             const DirectionCells cells{k};
             const ReflectionBlock block(rough(alpha), cells);
             const ReflectionBlock::Matrix& B = block.matrix(0);
             EXPECT_LE((Eigen::MatrixXd(B) - Eigen::MatrixXd(B).transpose()).cwiseAbs().maxCoeff(), epsilon);
-            const SobolPoints points(4096);
+            const SobolPoints points(16384);
+            const double standard_error = of_albedo * std::sqrt(1.0 / 2.0 + 1.0 / 9.0);
             for (std::uint32_t i = 0; i < cells.size(); i += std::max(1u, cells.size() / 16)) {
                 double albedo = 0.0;  // by other samples
                 Sampler sampler(points, 7, i);
@@ -59,7 +66,7 @@ TEST(ReflectionBlock, IsSymmetricAndItsRowsSumToTheAlbedo) {
                     const Vec3 wo = cells.direction(i, sampler.next2());
                     albedo += sample(rough(alpha), {}, wo, sampler.next2()).weight.g / points.size();
                 }
-                EXPECT_NEAR(B.row(i).sum(), albedo, 0.002) << alpha << " " << k << " " << i;
+                EXPECT_NEAR(B.row(i).sum(), albedo, 4.2 * standard_error) << alpha << " " << k << " " << i;
                 EXPECT_LE(B.row(i).sum(), 1.0 + 8.0 * epsilon);
             }
         }
@@ -73,10 +80,12 @@ TEST(ReflectionBlock, OfAMirrorTurnsByHalfACircle) {
         const Eigen::MatrixXd B = block.matrix(c);
         for (std::uint32_t i = 0; i < cells.size(); ++i)
             for (std::uint32_t j = 0; j < cells.size(); ++j) EXPECT_EQ(B(i, j) > 0.0, j == cells.mirrored(i)) << i << " " << j;
-        // At normal incidence ((n − 1)² + k²) / ((n + 1)² + k²).
+        // At normal incidence ((n − 1)² + k²) / ((n + 1)² + k²). The cell reaches from there to a sine of 1/4, and its mean is
+        // between the values at both ends.
         const double n[3] = {0.143, 0.375, 1.442}, k[3] = {3.983, 2.386, 1.603};
         const double normal = (std::pow(n[c] - 1.0, 2) + k[c] * k[c]) / (std::pow(n[c] + 1.0, 2) + k[c] * k[c]);
-        EXPECT_NEAR(B(3 * 8 + 3, 4 * 8 + 4), normal, 0.01) << c;
+        const double change = std::abs(conductor_fresnel(std::sqrt(15.0 / 16.0), n[c], k[c]) - normal);
+        EXPECT_NEAR(B(3 * 8 + 3, 4 * 8 + 4), normal, change) << c;
     }
 }
 
@@ -150,7 +159,9 @@ TEST(Directions, AChannelIsOneMatrix) {
     }
 }
 
-// K Le by points on lights and by the rays of T: two estimates of the same vector. A mirror has 256 rays a cell.
+// K Le by points on lights and by the rays of T: two estimates of the same vector. A mirror has 256 rays a cell. The mean of the
+// difference of a cell is noise; over 12 seeds it is 1.3% ± 0.09%, and the sum of all differences 0 ± 0.07%. Both are allowed 4.5
+// of these standard deviations.
 TEST(DirectionsSlow, LightSamplingAgreesWithRays) {
     const Scene scene = metals();
     const PatchSpace space(scene.geometry, {30, 0.6}, side_directions(scene));
@@ -158,14 +169,16 @@ TEST(DirectionsSlow, LightSamplingAgreesWithRays) {
     const RayTable table(space, 65536, 3);
     const ExitantVector<1> by_rays = R(TransportMatrix<1>(table)(emitted_light<1>(scene, space)));
     const ExitantVector<1> by_lights = R(arriving_light<1>(scene, R, 65536, 3));
-    double difference = 0.0, all = 0.0;
+    double difference = 0.0, sum = 0.0, all = 0.0;
     for (const Facet& facet : space.facets())
         for (std::uint32_t u = facet.first; u < facet.first + facet.cells.size(); ++u) {
             difference += std::abs(by_rays(0, u) - by_lights(0, u)) * space.measure(facet);
+            sum += (by_rays(0, u) - by_lights(0, u)) * space.measure(facet);
             all += by_rays(0, u) * space.measure(facet);
         }
     EXPECT_GT(all, 1.0);
-    EXPECT_LE(difference, 0.02 * all);
+    EXPECT_LE(difference, (0.013 + 4.5 * 0.0009) * all);
+    EXPECT_NEAR(sum, 0.0, 4.5 * 0.0007 * all);
 }
 
 // The coarser cells hold the means of the finer ones.
