@@ -84,30 +84,34 @@ TEST(Filters, StepAgainstSplatting) {
         }
 }
 
-// In the same picture from fields, 2048 samples a pixel.
+// The same in a picture from fields, of as many samples and replicates as above: 40 comparisons at |t| ≤ 5. 240 of them, with six
+// seeds, reached 2.7, and standard errors 0.3% of the lamp.
 TEST(Filters, StepFromFields) {
     for (const Named& named : filters()) {
         FieldSettings settings;
         settings.bounces = 0;
         settings.patching.patches = 10;
         settings.samples = 256;
-        settings.replicates = 8;
+        settings.replicates = 64;
         const Estimate found = render_fields(step(named.filter, false), settings)->term(0);
         for (int column = 0; column < width; ++column) {
-            const Rgb& a = found.mean.pixels[static_cast<std::size_t>(column)];
-            EXPECT_NEAR(a.g, splatted(named, column, false), 0.03) << named.name << ", column " << column;
+            const auto pixel = static_cast<std::size_t>(column);
+            const double error = found.standard_error.pixels[pixel].g, exact = splatted(named, column, false);
+            EXPECT_LE(error, 0.005) << named.name;
+            EXPECT_LE(std::abs(found.mean.pixels[pixel].g - exact), 5.0 * error + 1e-6) << named.name << ", column " << column;
         }
     }
 }
 
 // Where everything is the same everywhere, every bounce of a pixel is its mean weight times ρ^i. With two samples a pixel weights
-// are far from 1, and each way to read a bounce has to weigh alike; bounce 1 looks for lights and is noisy, so it is compared over
-// all.
+// are far from 1, and each way to read a bounce has to weigh alike, up to rounding; bounce 1 looks for lights and is noisy, unless
+// it is read on patches, so it is compared over all. Its standard error is 0.8% over 24 seeds, and 4.5 of these are allowed, a
+// false alarm in 7 of a million seeds.
 TEST(Filters, EveryBounceWeighsAlike) {
     constexpr double rho = 0.5;
     SceneMaker maker;
     maker.add(room({-1, -1, -1}, {1, 1, 1}), glowing(rho, 1.0));
-    maker.parts.film = {.width = 16, .height = 16, .crop_width = 16, .crop_height = 16, .filter = SignedFilter::lanczos()};
+    maker.parts.film = {.width = 32, .height = 32, .crop_width = 32, .crop_height = 32, .filter = SignedFilter::lanczos()};
     maker.parts.camera.fov = glm::radians(60.0);
     const Scene scene = maker.make();
     for (const FieldReading method : {FieldReading::matrix, FieldReading::gather, FieldReading::patches}) {
@@ -136,9 +140,10 @@ TEST(Filters, EveryBounceWeighsAlike) {
                 square += w * w;
                 worst = std::max(worst, std::abs(ratio - w));
             }
-            EXPECT_NEAR(product / square, 1.0, i == 1 ? 0.05 : 0.02) << "bounce " << i;
-            if (i > 1) {
-                EXPECT_LE(worst, 0.1) << "bounce " << i;
+            if (i == 1 && method != FieldReading::patches) {
+                EXPECT_NEAR(product / square, 1.0, 4.5 * 0.008) << "bounce " << i;
+            } else {
+                EXPECT_LE(worst, 1e-12 * largest) << "bounce " << i;
             }
         }
     }
