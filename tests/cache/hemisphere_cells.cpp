@@ -97,7 +97,7 @@ const std::array<Rectangle, 4> lights{// Above, off to one side; upright beside 
 // proportion to the width of cells, so that means of two numbers of cells, extrapolated to width 0, are the exact derivatives but
 // for errors of second order. Those are below 3% of the largest derivative of the same order at 16 000 and 131 000 cells, which is
 // what the test allows beside 4.5 standard errors, at most 0.8%: 32 comparisons, a false alarm in 4600 runs.
-TEST(HemisphereCells, DerivativesOfTheIrradianceOfARectangle) {
+TEST(HemisphereCellsSlow, DerivativesOfTheIrradianceOfARectangle) {
     for (std::size_t which = 0; which < lights.size(); ++which) {
         const Rectangle& light = lights[which];
         const Derivatives truth = exact(light);

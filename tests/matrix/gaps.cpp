@@ -18,7 +18,7 @@ using namespace physics;
 // it within 4.5 standard errors. Patches without bands along the gap's mouth lose 17% more than the walkers, those with them up to
 // 0.9% (the mean of six seeds), and 1024 rays leave a standard error of up to 0.56%: 4.5 of these and the 0.9% are 3.4%. Each of
 // the comparisons is beyond 4.5 standard errors in 7 of a million seeds.
-TEST(Gaps, LeakAsFastAsTheyShould) {
+TEST(GapsSlow, LeakAsFastAsTheyShould) {
     constexpr double gap = 0.5, upper = 200.0;
     const Vec2 low(-65.0, -52.0), high(65.0, 53.0);
     SceneMaker maker;

@@ -55,7 +55,7 @@ Scene room_with(const Ball& ball, bool small_lamp, double rho = 0.5) {
 }
 
 class Links : public testing::TestWithParam<Ball> {};
-INSTANTIATE_TEST_SUITE_P(Balls, Links, testing::ValuesIn(balls()), [](const auto& ball) { return ball.param.name; });
+INSTANTIATE_TEST_SUITE_P(BallsSlow, Links, testing::ValuesIn(balls()), [](const auto& ball) { return ball.param.name; });
 
 // The power that comes to the walls by m links is the same from the walls' rays and from the lamp's: |z| ≤ 4.5 in each of 6
 // bounces, a false alarm in 1 of 20,000 runs.

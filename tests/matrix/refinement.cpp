@@ -65,7 +65,7 @@ TEST(RefinementSlow, OfPatches) {
 }
 
 // Over 32 seeds: sixteen times as many rays, at most a quarter of the spread.
-TEST(Refinement, OfRays) {
+TEST(RefinementSlow, OfRays) {
     double last = 0.0;
     for (const std::uint32_t rays : {16u, 256u, 4096u}) {
         double sum = 0.0, squares = 0.0;

@@ -220,7 +220,7 @@ TEST(CloseSurfaces, AreMetInThinGapsAboveWideGround) {
 }
 
 // Boxes whose faces are cut into triangles in two ways.
-TEST(CloseSurfaces, AreMetWhereBoxesTouchAndOverlap) {
+TEST(CloseSurfacesSlow, AreMetWhereBoxesTouchAndOverlap) {
     for (const auto cut : {&close_places::box, &known::box})
         for (const Placement& place : places)
             for (const double gap : {0.0, 1e-9, 1e-6}) {
@@ -254,7 +254,7 @@ TEST(CloseSurfaces, AreMetOnInstances) {
 // A column with pleats: needles around an axis, and fans of them, of which each has hundreds of others around it, on a ground and
 // in it. Without pleats its faces would continue each other. Not 1 km away, where a needle of a millimetre has corners with too few
 // digits.
-TEST(CloseSurfaces, AreMetInCrowds) {
+TEST(CloseSurfacesSlow, AreMetInCrowds) {
     for (const Placement& place : std::span(places).first(2))
         for (const double gap : {0.0, 1e-6, -0.5}) {
             TriangleMesh column = known::prism(400);
@@ -298,7 +298,7 @@ std::vector<Shape> close_jumble(std::uint64_t seed) {
 
 // A face keeps where it is close after it has been asked for a few points. Rays in one order and in the other, each on a geometry
 // of its own, find the same.
-TEST(CloseSurfaces, DoNotDependOnWhatWasAskedBefore) {
+TEST(CloseSurfacesSlow, DoNotDependOnWhatWasAskedBefore) {
     TriangleMesh column = known::prism(400);
     for (std::size_t i = 0; i < column.vertices.size(); ++i)
         column.vertices[i] *= i / 2 % 2 == 0 ? Vec3(0.1, 0.1, 1) : Vec3(0.097, 0.097, 1);

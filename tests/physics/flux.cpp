@@ -29,7 +29,7 @@ double mean_height(const Scene& scene) {
 }
 
 // Le = 2 + z. 8 enclosures × 2 ways × 7 bounces: 112 comparisons.
-TEST(Flux, WithOneAlbedoEveryBounceKeepsItsPowerOnAverage) {
+TEST(FluxSlow, WithOneAlbedoEveryBounceKeepsItsPowerOnAverage) {
     const double rho = 0.8;
     const AreaLight more_above([](const SurfacePoint& p, const Vec3&) { return grey(2.0 + p.position.z); }, grey(4.0));
     for (const ClosedScene& enclosure : enclosures({grey(rho), more_above})) {

@@ -80,7 +80,7 @@ TEST(FunctionAlgebra, TheSeriesIsCompensated) {
 
 // ⟨K² Le, g⟩ = ⟨Le, K*² g⟩, of surfaces of all kinds of reflectance; g is 1 where the ceiling faces down. 64 batches, three
 // channels: |z| ≤ 4.5 is a false alarm in 50 000.
-TEST(FunctionAlgebra, AdjointsMeasureTheSame) {
+TEST(FunctionAlgebraSlow, AdjointsMeasureTheSame) {
     SceneMaker maker;
     const auto walls = room({-1, -1, -1}, {1, 1, 1});
     maker.add(walls[left], Surface{Rgb(0.2, 0.3, 0.4), AreaLight(Rgb(1.0, 2.0, 3.0)), false});

@@ -58,7 +58,7 @@ TEST(Furnace, WithoutAbsorptionEveryTermIsOneAndTheWalksAreGivenUp) {
 }
 
 // Beyond the last picture: Σ_{i>N} ρ^i = ρ^(N+1) / (1 − ρ), by walks that roulette ends. 6 comparisons.
-TEST(Furnace, TheRestIsTheTailOfTheGeometricSeries) {
+TEST(FurnaceSlow, TheRestIsTheTailOfTheGeometricSeries) {
     SceneMaker maker;
     maker.add(Sphere{{0, 0, 0}, 1.0, true}, glowing(0.8, 1.0));
     const Scene scene = maker.make();

@@ -24,7 +24,7 @@ ProbeSettings probe_settings(Technique technique, int bounces) {
 // factor of the mirrored lamp, here of a disc at height h seen from a point below its centre, r²/(r² + h²), less
 // s²/(π h²) of the floor itself, a small square that hides a little of the lamp. Light sampling has to find it by walking on. 3
 // ways, to 0.5%: 3 comparisons.
-TEST(Mirrors, ALampSeenInAMirrorLightsTheFloor) {
+TEST(MirrorsSlow, ALampSeenInAMirrorLightsTheFloor) {
     SceneMaker maker;
     maker.add(patch({0, 0, 0}, {0, 0, 1}, 0.01), matte(0.5));
     maker.add(patch({0, 0, 1}, {0, 0, -1}, 1.0), made_of(mirror()));

@@ -64,7 +64,7 @@ TEST(RoughConductor, TheDensityOfDirectionsIntegratesToOne) {
 
 // χ² of 131072 directions in 16 × 24 cells, by the facets that reflect them. 6 metals × 5 angles: 30 comparisons, each with the
 // false-alarm rate of |z| > 4.5, 6.8e-6.
-TEST(RoughConductor, DirectionsAreDrawnWithTheirDensity) {
+TEST(RoughConductorSlow, DirectionsAreDrawnWithTheirDensity) {
     constexpr int rings = 16, sectors = 24, count = 131072;
     std::uint32_t stream = 0;
     for (const auto& [name, bsdf] : metals({Masking::separable}))

@@ -142,7 +142,7 @@ TEST(RoughDielectric, LosesOnlyWhatFacetsHide) {
 
 // A lamp beyond a rough boundary, a disc that fills the cone around −z with cosine above 0.8: K^1 Le = ∫ fs |cosθ| dω over it, by
 // quadrature. And one on the same side, over the cone around +z. 2 glasses × 2 × 4 ways: 16 comparisons.
-TEST(RoughDielectric, LampsAreFoundThroughIt) {
+TEST(RoughDielectricSlow, LampsAreFoundThroughIt) {
     constexpr Technique ways[] = {Technique::mis, Technique::bsdf, Technique::light, Technique::pointwise};
     const double mu = 0.9, edge = 0.8;
     for (const double eta : {1.5, 1.0 / 1.5})

@@ -44,7 +44,7 @@ TEST(Choice, ASmallRenderIsAWalkAndHasItsBits) {
     EXPECT_EQ(std::memcmp(a.pixels.data(), b.pixels.data(), a.pixels.size() * sizeof(Rgb)), 0);
 }
 
-TEST(Choice, IsTheSameOnAnyNumberOfThreads) {
+TEST(ChoiceSlow, IsTheSameOnAnyNumberOfThreads) {
     const Scene scene = of_file("cornell-box");
     const MethodChoice all = choice(scene);
     EXPECT_EQ(adaptive_of(all.method), LeastError::of_all);
@@ -114,7 +114,7 @@ TEST(Choice, APointAndAMirrorTakeWalksFromBothEnds) {
     EXPECT_NE(chosen(box_of(matte(0.5))), "bidirectional");
 }
 
-TEST(Choice, HiddenLightsTakeNoWalksFromThem) {
+TEST(ChoiceSlow, HiddenLightsTakeNoWalksFromThem) {
     Scene scene = of_file("glass-ball");
     scene.hide_emitters = true;
     const MethodChoice found = choice(scene);
@@ -153,7 +153,7 @@ TEST(ChoiceSlow, ABiasIsTakenOnlyWhereItIsAllowed) {
 }
 
 // After so many samples nothing is left of the errors of walks, but all of a bias, which samples do not lessen.
-TEST(Choice, NoBiasIsTakenWhereSamplesDoNotLessenIt) {
+TEST(ChoiceSlow, NoBiasIsTakenWhereSamplesDoNotLessenIt) {
     method::Auto open;
     open.bias_allowed = true;
     Goal goal;
@@ -165,7 +165,7 @@ TEST(Choice, NoBiasIsTakenWhereSamplesDoNotLessenIt) {
 }
 
 // Tables of directions take half of the pilots' time.
-TEST(Choice, GuidedWalksHaveAPilotWhereTheyMayBeTakenAndItCostsLittle) {
+TEST(ChoiceSlow, GuidedWalksHaveAPilotWhereTheyMayBeTakenAndItCostsLittle) {
     const auto has_pilot = [](const char* scene, std::uint64_t samples) {
         Goal goal;
         goal.seed = fixed_seed;

@@ -83,7 +83,7 @@ void expect_the_same_pictures(const std::function<Scene()>& make) {
         }
 }
 
-TEST(PlannedPictures, OfAllScenesThatComeAlong) {
+TEST(PlannedPicturesSlow, OfAllScenesThatComeAlong) {
     int count = 0;
     for (const auto& folder : std::filesystem::directory_iterator(SCENES)) {
         if (!folder.is_directory() || folder.path().filename() == "compare") continue;  // which has scripts for another renderer

@@ -27,7 +27,7 @@ bool same_bits(const Image& a, const Image& b) {
 }
 
 // By every method, whatever the plan leaves out, twice.
-TEST(Renders, OneTreeServesAllAndNothingChanges) {
+TEST(RendersSlow, OneTreeServesAllAndNothingChanges) {
     const Scene scene = room_from_behind();
     const std::uint64_t trees = trees_built();
     for (const std::string& name : method_names()) {

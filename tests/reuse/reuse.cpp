@@ -147,7 +147,7 @@ TEST(ReusingWalk, HasLessVarianceForItsRays) {
 
 // Pixels that share tails go together, and means over them say so: of 400 independent renders of 8×8 pixels, the mean's variance
 // over renders is the mean square of the stated errors, to 4.5 standard deviations of such a ratio, √(2/399).
-TEST(ReusingWalk, StatesTheErrorOfMeansOverPixels) {
+TEST(ReusingWalkSlow, StatesTheErrorOfMeansOverPixels) {
     const Scene scene = scene_of("cornell-box", "8");
     SamplingSettings settings{
         .method = std::make_shared<const WalkPaths>(8u), .walk = {.bounces = 3, .rest_probability = 0.0}, .replicate_size = 4};

@@ -60,7 +60,7 @@ Acceleration uniform(double rho) {
 
 // The quotient by the symmetries of the square stands for the whole cube: same iterates, same counts, but for rounding at the
 // threshold.
-TEST(Acceleration, QuotientTakesAsManyAsTheWholeCube) {
+TEST(AccelerationSlow, QuotientTakesAsManyAsTheWholeCube) {
     const Cube cube = patched_cube(16);
     Acceleration whole(cube, Vector::Constant(cube.size(), 0.9)), quotient = uniform(0.9);
     for (const char* method : {"neumann", "ratio-tail", "aitken", "vector-epsilon", "anderson-3", "cg", "gmres"}) {

@@ -66,7 +66,7 @@ Vector exact_sum(const Matrix& K, const Vector& Le) {
     return A.partialPivLu().solve(Le.cast<long double>()).cast<double>();
 }
 
-TEST(Estimates, AreNoneBelowAThirdOfTheError) {
+TEST(EstimatesSlow, AreNoneBelowAThirdOfTheError) {
     constexpr double tolerance = 1e-6;
     for (const Case& problem_of : cases()) {
         const SparseChannel K(problem_of.K.sparseView(), Vector::Ones(problem_of.K.rows()));
