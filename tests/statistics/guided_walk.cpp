@@ -96,7 +96,7 @@ TEST(GuidedDirections, WeighWhatTheyMissInAnyFrame) {
     const Vec3 s = std::cos(1.0) * flat.s + std::sin(1.0) * flat.t, t = glm::cross(flat.n, s);
     for (const Frame& frame : {flat, Frame(s, t, flat.n), Frame(s, -t, flat.n)}) {
         side.p.frame = frame;
-        const auto vertex = guided.at(side, guided.place(side.p, side.p.frame.n, 3));
+        const auto vertex = guided.at(side, guided.vertex_data(side.p, side.p.frame.n, 3));
         constexpr std::uint32_t n = 4, replicates = 4096, size = 256;
         std::vector<double> sum(n * n), squares(n * n);
         Sampler sampler(fixed_seed, 1);
@@ -162,7 +162,7 @@ TEST(GuidedDirections, ThereIsNoTableWhereNoFurtherBounceIsWantedNorForMetals) {
     const auto weight = [&](const GuidedContinuation& continuation, const SurfaceSide& side, int wanted) {
         Sampler sampler(fixed_seed, 1);
         sampler.start(0);
-        return continuation.at(side, continuation.place(side.p, side.p.frame.n, wanted)).sample(side, wo, sampler).weight;
+        return continuation.at(side, continuation.vertex_data(side.p, side.p.frame.n, wanted)).sample(side, wo, sampler).weight;
     };
     const auto weight_of_material = [&](const SurfaceSide& side) {
         Sampler sampler(fixed_seed, 1);
