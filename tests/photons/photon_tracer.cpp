@@ -78,7 +78,7 @@ TEST(PhotonTracer, AllThatArrivesIsKept) {
 
 // A white furnace traps light for ever: the pilot ends all the same, and so does a render without a rest. Too many photons are
 // refused before they are traced.
-TEST(PhotonTracer, EndsWhereTheSeriesDoesNot) {
+TEST(PhotonTracerSlow, EndsWhereTheSeriesDoesNot) {
     const Scene white = stock_scene("furnace", {{"albedo", "1"}, {"res", "4"}});
     const PhotonPilot pilot(white, {20000, {}, false}, SamplerKind::sobol, fixed_seed);
     EXPECT_GT(pilot.settings.radius, 0.0);

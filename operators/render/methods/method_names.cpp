@@ -1,6 +1,6 @@
+#include "core/base/named_values.h"
 #include "operators/render/methods/method_options.h"
 #include "operators/render/methods/method_table.h"
-#include "core/base/named_values.h"
 
 namespace neumann {
 
