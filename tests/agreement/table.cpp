@@ -27,16 +27,23 @@ enum class Bias { none, of_means, of_pixels };
 // Values of a scene go together: its channels have the same paths, and all blocks of a replicate what the replicate shares. So n of
 // them are about as many as n/3, or fewer, and the part of a scene that has to be within the 95% intervals leaves them three
 // standard deviations of their number.
+struct Limits {
+    double known;               // values are left out that the reference does not know to this part
+    double of_a_scene, of_all;  // the least parts within their intervals
+};
+constexpr Limits usual{0.05, 0.85, 0.9}, thinned{0.05, 0.85, 0.85}, of_mixtures{0.05, 0.85, 0.92}, of_chains{0.05, 0.8, 0.91},
+    of_photons{0.02, 0.9, 0.95}, of_records{0.02, 0.85, 0.95};
+
 struct Row {
     std::string name;
     std::function<SamplingSettings(const Scene&, std::uint64_t seed)> settings;
     std::uint64_t replicates;
-    double known;               // values are left out that the reference does not know to this part
-    double of_a_scene, of_all;  // the least parts within their intervals
+    Limits limits;
     std::vector<std::string> scenes;
     Bias bias = Bias::none;
     // Where rare paths bring light, few replicates of some methods do not tell the spread of all values: so many may be further off
-    // than 4.5 standard errors. What is wrong in a block is so in three channels of several bounces.
+    // than 4.5 standard errors (at most one was, in three seeds of four scenes). What is wrong in a block is so in three channels
+    // of several bounces.
     std::size_t far = 0;
 };
 
@@ -44,10 +51,14 @@ bool has_rare_paths(const std::string& scene) {
     return scene == "door-ajar" || scene == "glass-ball" || scene == "metal-room" || scene == "outdoor";
 }
 // The largest error that the mean of a bounce over the picture may have, as a part of it: a table without power sees nothing. What
-// goes to and fro between mirrors, and what glass gathers, has few paths, and few of a sky's photons come where the camera looks.
+// goes to and fro between mirrors, and what glass gathers, has few paths; few of a sky's photons come where the camera looks; and
+// few thinned walks are left.
 double largest_error(const std::string& method, const std::string& scene) {
     if (scene == "outdoor" && method.starts_with("photon")) return 0.2;
-    return scene == "facing-mirrors" || scene == "glass-ball" ? 0.15 : scene == "glossy-floor" ? 0.08 : 0.05;
+    if (method == "walk_thinned") return 0.1;
+    return scene == "facing-mirrors" || scene == "glass-ball"                       ? 0.15
+           : scene == "glossy-floor" || scene == "metal-room" || scene == "outdoor" ? 0.08
+                                                                                    : 0.05;
 }
 
 using Options = std::vector<std::pair<std::string, std::string>>;
@@ -63,6 +74,14 @@ auto by_surfaces() {
     return [](const Scene& scene, std::uint64_t seed) {
         SamplingSettings settings = by("surface")(scene, seed);
         settings.walk.rest_probability = 0.0;
+        return settings;
+    };
+}
+// Without the light that directions hit.
+auto by_lights(const std::function<SamplingSettings(const Scene&, std::uint64_t)>& with_mis) {
+    return [=](const Scene& scene, std::uint64_t seed) {
+        SamplingSettings settings = with_mis(scene, seed);
+        settings.walk.direct.direct = DirectLight::light;
         return settings;
     };
 }
@@ -83,43 +102,37 @@ std::vector<Row> rows() {
         std::erase_if(scenes, [&](const std::string& s) { return std::ranges::find(left_out, s) != left_out.end(); });
         return scenes;
     };
-    const Options guide{{"patches", "500"}, {"directions", "256"}},
-        guide_to_lights{{"patches", "500"}, {"directions", "256"}, {"direct", "light"}};
+    const Options guide{{"patches", "500"}, {"directions", "256"}};
     return {
-        {"bidirectional", by("bidirectional"), 64, 0.05, 0.85, 0.9, of_walks},
-        {"light", by("light"), 64, 0.05, 0.85, 0.9, {"cornell-box", "door-ajar", "floating-panels", "furnace"}},
-        {"surface", by_surfaces(), 64, 0.05, 0.85, 0.9, {"floating-panels"}},
-        {"walk_in_trees", by_trees({0.3, 3.4, 0.5, 1.6}), 64, 0.05, 0.85, 0.9, {"cornell-box", "floating-panels"}},
-        {"walk_split", by_trees({7.0}), 32, 0.05, 0.85, 0.9, {"cornell-box", "floating-panels"}},
-        {"walk_thinned", by_trees({0.2, 0.6, 0.6, 0.6}), 128, 0.05, 0.85, 0.9, {"cornell-box", "floating-panels"}},
-        {"walk_reused", by("walk", {{"reuse", "true"}}), 64, 0.05, 0.85, 0.9,
-         without({"glass-ball", "metal-room", "sphere-segment"})},
-        {"walk_reused_with_roulette", by("walk", {{"reuse", "true"}, {"roulette", "0.7"}}), 64, 0.05, 0.85, 0.9, {"cornell-box"}},
-        {"guided", by("guided", guide), 64, 0.05, 0.85, 0.9, without({"glass-ball", "metal-room"})},
-        {"guided_among_metals", by("guided", guide), 256, 0.05, 0.85, 0.9, {"metal-room"}},
-        {"guided_to_lights", by("guided", guide_to_lights), 64, 0.05, 0.85, 0.9, {"cornell-box"}},
-        {"corrected", by("corrected", {{"patches", "300"}, {"directions", "32"}}, 8), 64, 0.05, 0.85, 0.9, without({"glass-ball"})},
-        {"photon", by("photon", {{"gather", "false"}, {"photons", "16384"}}), 128, 0.02, 0.9, 0.95, all, Bias::of_means},
-        {"photon_gathered", by("photon", {{"gather", "true"}, {"photons", "16384"}}), 128, 0.02, 0.9, 0.95,
+        {"bidirectional", by("bidirectional"), 64, usual, of_walks},
+        {"light", by("light"), 64, usual, {"cornell-box", "door-ajar", "floating-panels", "furnace"}},
+        {"surface", by_surfaces(), 64, usual, {"floating-panels"}},
+        {"walk_in_trees", by_trees({0.3, 3.4, 0.5, 1.6}), 64, usual, {"cornell-box", "floating-panels"}},
+        {"walk_split", by_trees({7.0}), 32, usual, {"cornell-box", "floating-panels"}},
+        {"walk_thinned", by_trees({0.2, 0.6, 0.6, 0.6}), 128, thinned, {"cornell-box", "floating-panels"}},
+        {"walk_reused", by("walk", {{"reuse", "true"}}), 64, usual, without({"glass-ball", "metal-room", "sphere-segment"})},
+        {"walk_reused_with_roulette", by("walk", {{"reuse", "true"}, {"roulette", "0.7"}}), 64, usual, {"cornell-box"}},
+        {"guided", by("guided", guide), 64, usual, without({"glass-ball", "metal-room"})},
+        {"guided_among_metals", by("guided", guide), 256, usual, {"metal-room"}},
+        {"guided_to_lights", by_lights(by("guided", guide)), 64, usual, {"cornell-box"}},
+        {"corrected", by("corrected", {{"patches", "300"}, {"directions", "32"}}, 8), 64, usual, without({"glass-ball"})},
+        {"photon", by("photon", {{"gather", "false"}, {"photons", "16384"}}), 128, of_photons, all, Bias::of_means},
+        {"photon_gathered", by("photon", {{"gather", "true"}, {"photons", "16384"}}), 128, of_photons,
          without({"furnace", "mitsuba-cornell", "floating-panels", "sphere-segment"}), Bias::of_means},
         {"cache_by_hessians",
          by("cache", {{"records", "hessian"}, {"directions", "128"}}),
          24,
-         0.02,
-         0.85,
-         0.95,
+         of_records,
          {"cornell-box", "door-ajar", "metal-room", "outdoor"},
          Bias::of_pixels},
         {"cache_by_split_spheres",
          by("cache", {{"records", "split-sphere"}, {"directions", "128"}}),
          24,
-         0.02,
-         0.85,
-         0.95,
+         of_records,
          {"cornell-box", "floating-panels"},
          Bias::of_pixels},
-        {"mixed", by("mixed"), 64, 0.05, 0.85, 0.92, without({"sphere-segment"}), Bias::none, 4},
-        {"metropolis", by("metropolis"), 48, 0.05, 0.8, 0.91, all, Bias::none, 4},
+        {"mixed", by("mixed"), 64, of_mixtures, without({"sphere-segment"}), Bias::none, 4},
+        {"metropolis", by("metropolis"), 48, of_chains, all, Bias::none, 4},
     };
 }
 
@@ -153,7 +166,7 @@ public:
             const Count& count = counts[row.name];
             if (count.cells < static_cast<int>(row.scenes.size())) continue;
             std::printf("%s: %d of %d within\n", row.name.c_str(), count.within, count.all);
-            EXPECT_GE(count.within, row.of_all * count.all) << row.name;
+            EXPECT_GE(count.within, row.limits.of_all * count.all) << row.name;
         }
     }
 };
@@ -177,7 +190,7 @@ TEST_P(TableSlow, AgreesWithTheReference) {
             for (std::size_t b = 0; b <= blocks; ++b) {
                 const Blocks::Value f = found.at(b, q, channel, row.replicates), &r = exact.at(b, q, channel);
                 const double error = std::hypot(f.error, r.error), off = std::abs(f.mean - r.mean);
-                if (r.mean == 0.0 || r.error > row.known * r.mean) continue;
+                if (r.mean == 0.0 || r.error > row.limits.known * r.mean) continue;
                 if (b == blocks) worst = std::max(worst, error / r.mean);
                 const double bias = row.bias == Bias::none       ? 0.0
                                     : row.bias == Bias::of_means ? f.bias
@@ -196,7 +209,7 @@ TEST_P(TableSlow, AgreesWithTheReference) {
     std::printf("%d of %d within, at most %.2f SE off, %zu too far; largest error of a mean %.2f%%\n", count.within, count.all,
                 largest, far, 100.0 * worst);
     EXPECT_GE(count.all, 30);
-    EXPECT_GE(count.within, row.of_a_scene * count.all);
+    EXPECT_GE(count.within, row.limits.of_a_scene * count.all);
     EXPECT_LE(worst, largest_error(row.name, name));
     Count& of_row = counts[row.name];
     of_row.within += count.within, of_row.all += count.all, ++of_row.cells;
