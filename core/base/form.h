@@ -12,6 +12,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 namespace neumann {
@@ -31,7 +32,8 @@ inline auto not_a(std::string expected) {
 template <class Number>
 std::optional<Number> number_in(const std::string& text) {
     Number value{};
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    const bool has_plus = std::is_floating_point_v<Number> && text.starts_with('+') && !text.starts_with("+-");
+    const auto [end, error] = std::from_chars(text.data() + (has_plus ? 1 : 0), text.data() + text.size(), value);
     return error == std::errc() && end == text.data() + text.size() ? std::optional(value) : std::nullopt;
 }
 
@@ -61,7 +63,7 @@ Form<Number> whole_from(std::uint64_t low, std::uint64_t high) {
 
 inline Form<double> real(std::function<bool(double)> fits, std::string expected) {
     const auto read = [=](const std::string& text) {
-        const auto x = number_in<double>(text.starts_with('+') ? text.substr(1) : text);
+        const auto x = number_in<double>(text);
         return x && std::isfinite(*x) && fits(*x) ? x : std::nullopt;
     };
     return {read, [](const double& x) { return fmt::format("{}", x); }, not_a(std::move(expected)), true};

@@ -72,7 +72,7 @@ public:
     std::size_t samples_per_point() const { return choice_ == LightChoice::all ? table_.lights().size() : 1; }
 
     // Samples light for the receiver x: the first number chooses the light and is then reused, with the second, for the
-    // point on it. The density is that of pdf(). `number` is the number of the sample, below casts_shadow_ray().
+    // point on it. The density is that of pdf(). `number` is the number of the sample, below samples_per_point().
     LightSample sample(const Receiver& x, const Vec2& uv, std::size_t number = 0) const {
         if (empty()) return {};
         if (choice_ == LightChoice::contribution) return sample_by_contribution(x, uv);

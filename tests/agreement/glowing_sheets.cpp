@@ -59,7 +59,7 @@ class GlowingSheetsSlow : public testing::TestWithParam<Sheet> {};
 INSTANTIATE_TEST_SUITE_P(Materials, GlowingSheetsSlow, testing::ValuesIn(sheets()), [](const auto& s) { return s.param.name; });
 
 // With a glow of a millionth nothing but the glow's own light differs, which is less than 1e-5. Within 5.5 standard errors of both,
-// and what they state of bias: 13 methods, 3 lights, 2 bounces.
+// and what they state of bias: 12 methods, 3 lights, 2 bounces.
 TEST_P(GlowingSheetsSlow, CarryLightAsDarkOnesDo) {
     std::size_t number = GetParam().name.size();  // sheets begin with another method
     for (const Light light : {Light::sky, Light::sun, Light::lamp}) {
@@ -67,16 +67,18 @@ TEST_P(GlowingSheetsSlow, CarryLightAsDarkOnesDo) {
         goal.bounces = 2;
         goal.only_pictures = true;
         goal.samples = 1024;
-        goal.seed = physics::fixed_seed;
+        std::uint64_t seed = physics::fixed_seed;  // of a method the same on every day
         const Scene dark = scene_with(GetParam(), light, 0.0), glows = scene_with(GetParam(), light, 1e-6);
         ++number;
         for (const Method& method : agreement::every_method()) {
+            seed += 2;
             if (!physics::is_of_today(number++)) continue;
             SCOPED_TRACE(std::string(name_of(method)) + ", light " + std::to_string(static_cast<int>(light)));
             std::optional<BounceSeries> without, with;
             try {
+                goal.seed = seed;
                 without = render(dark, method, goal);
-                goal.seed += 1;
+                goal.seed = seed + 1;
                 with = render(glows, method, goal);
             } catch (const InputError&) {
                 EXPECT_FALSE(without) << "refused only because the sheet glows";

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -60,11 +61,19 @@ void make(Reference& reference, const Maker& maker) {
     for (std::size_t q = 0; q <= bounces; ++q) reference.pixels[q] = pixels.result().term(q);
 }
 
-// Other executables and seeds have others.
+auto time_of(const fs::path& file) { return fs::last_write_time(file).time_since_epoch().count(); }
+
+// The references of this executable; others have others.
 fs::path folder() {
     const fs::path executable = fs::read_symlink("/proc/self/exe");
-    return fs::path(REFERENCES) / fmt::format("{:x}-{:x}-{}", fs::file_size(executable),
-                                              fs::last_write_time(executable).time_since_epoch().count(), physics::fixed_seed);
+    return fs::path(REFERENCES) / fmt::format("{:x}-{:x}", fs::file_size(executable), time_of(executable));
+}
+// That of a scene as its files are now, and of a seed.
+fs::path file_of(const std::string& scene) {
+    auto newest = time_of(fmt::format(SCENES "/{}", scene));
+    for (const auto& entry : fs::recursive_directory_iterator(fmt::format(SCENES "/{}", scene)))
+        newest = std::max(newest, time_of(entry.path()));
+    return folder() / fmt::format("{}-{:x}-{}", scene, newest, physics::fixed_seed);
 }
 
 bool read(const fs::path& path, Reference& reference) {
@@ -74,9 +83,10 @@ bool read(const fs::path& path, Reference& reference) {
 }
 
 void write(const fs::path& path, Reference& reference) {
+    std::error_code ignored;  // another process may remove the same
     fs::create_directories(path.parent_path());
     for (const auto& entry : fs::directory_iterator(REFERENCES))
-        if (entry.path() != path.parent_path()) fs::remove_all(entry.path());
+        if (entry.path() != path.parent_path()) fs::remove_all(entry.path(), ignored);
     const fs::path part = fmt::format("{}.{}.part", path.string(), getpid());
     std::ofstream file(part, std::ios::binary);
     visit_numbers(reference, [&](double& x) { file.write(reinterpret_cast<const char*>(&x), sizeof x); });
@@ -91,7 +101,7 @@ Reference read_or_make(const std::string& name) {
     Reference reference{read_scene(fmt::format(SCENES "/{}/{}.xml", name, name), {{"res", std::to_string(resolution)}}),
                         maker.knows_rest, std::vector<physics::Blocks::Value>((blocks + 1) * (bounces + 2) * 3),
                         std::vector<Estimate>(bounces + 1, Estimate{empty, empty})};
-    const fs::path path = folder() / name;
+    const fs::path path = file_of(name);
     if (!read(path, reference)) {
         make(reference, maker);
         write(path, reference);

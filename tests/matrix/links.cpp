@@ -132,7 +132,7 @@ TEST_P(Links, LeaveAFurnaceAsItIs) {
 }
 
 // A lamp that the rays of T do not find: the pictures' means are those of a room without patches, by the walk in
-// agreement_fields.cpp; here the two readings, which find caustics in different ways, agree, and the power balances.
+// tests/agreement/fields.cpp; here the two readings, which find caustics in different ways, agree, and the power balances.
 TEST_P(Links, OfASmallLampBalance) {
     const Scene scene = room_with(GetParam(), true);
     FieldSettings settings;

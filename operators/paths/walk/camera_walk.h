@@ -1,4 +1,5 @@
-// The walk of all methods that start at the camera: L = Le + K L, one reflection after the other, for many walks together.
+// The walk of all methods whose paths start at the camera alone: L = Le + K L, one reflection after the other, for many walks
+// together.
 //
 //     R gives each walk its direction, and takes light samples    steps.reflect(bounce, q), e.g. by sample_reflections()
 //     T follows the directions                                    steps.find_next(q, k, n, point), e.g. by Together::first_hits()
@@ -18,7 +19,10 @@
 
 namespace neumann {
 
-// What a kind of walk may do in its own way. Its steps derive from this, hide what they change, and add reflect() and find().
+// What a kind of walk may do in its own way. Its steps derive from this, hide what they change, and add
+//
+//     bool reflect(int bounce, std::size_t q)                             applies R; false: all walks end here
+//     void find(std::uint32_t walk, std::size_t q, const Rgb& light)      adds light to a walk's sample of bounce q
 template <class AnyWalkers>
 struct WalkSteps {
     const Scene& scene;
@@ -29,7 +33,8 @@ struct WalkSteps {
 
     // Whether a walk that has been reflected needs a ray.
     bool needs_ray(const Walker&, std::uint32_t, int /*bounce*/) const { return true; }
-    // Finds the next points of the walks alive[k … k + n), and counts the rays.
+    // Finds the next points of the walks alive[k … k + n), writes them to point(j), and counts the rays. Returns a bit mask of
+    // those found.
     template <class PointAt>
     std::uint32_t find_next(std::size_t q, std::size_t k, std::size_t n, const PointAt& point) const {
         rays[q] += n;
@@ -71,8 +76,8 @@ void camera_walk(Samplers& samplers, AnyWalkers& walkers, Steps& steps, std::uin
 }
 
 // R at the vertices of walks: samples the lights and, along with the last light sample, the next direction. T finds which light
-// samples are visible. takes_light(i, w, side, number) is called for each of them, from number 1 on, or for none, which is number
-// 1, too, and returns whether it is taken.
+// samples are visible. takes_light(i, w, side, number) is called for number = 1 … max(light samples, 1), even if there are none; it
+// returns whether the walk takes the sample.
 template <class Steps, class Samplers, class TakesLight, class Observer>
 void sample_reflections(Steps& steps, Samplers& samplers, int bounce, std::size_t q, const TakesLight& takes_light,
                         const Observer& observer) {

@@ -39,8 +39,8 @@ struct Together {
         alive.resize(kept);
     }
 
-    // Moves each path to its next point, packet by packet, and then does keep_if(f). ask(k, n, point) finds the next points of
-    // alive[k … k + n), writes them to point(j), and returns a bit mask of those found; the others move to infinity.
+    // Moves each path to its next point, packet by packet, and then does keep_if(f). find_next(k, n, point) finds the next points
+    // of alive[k … k + n), writes them to point(j), and returns a bit mask of those found; the others move to infinity.
     template <class Observer, class FindNext, class Keep>
     void advance(int reflections, const Observer& observer, const FindNext& find_next, const Keep& f) {
         constexpr std::size_t packet = RayCaster::packet_size;
