@@ -38,7 +38,7 @@ LIMITS = {
     "bidirectional": 40,
     "photon": 19,
     "lines of core, operators and apps": 98613,
-    "lines of tests": 45429,
+    "lines of tests": 45430,
 }
 
 
