@@ -158,14 +158,15 @@ configured() {
     [[ -e $build/build.ninja && $(sed -n 's/^CMAKE_HOME_DIRECTORY:INTERNAL=//p' "$build/CMakeCache.txt") -ef $root ]]
 }
 
-# build_in PRESET TARGET [CMake option...]: configures where needed or where options are given, and builds. What is up to date is not mentioned.
+# build_in PRESET "TARGET..." [CMake option...]: configures where needed or where options are given, and builds. What is up to date is not mentioned.
 build_in() {
-    local preset=$1 target=$2 fresh=()
+    local preset=$1 targets fresh=()
+    read -ra targets <<<"$2"
     shift 2
     configured || fresh=(--fresh)
     if (($# > 0 || ${#fresh[@]} > 0)); then
         # Errors and warnings remain, on stderr.
         (cd "$root" && cmake --preset "$preset" "${fresh[@]}" "$@" >/dev/null) || return 1
     fi
-    cmake --build "$build" --target "$target" -j "$(nproc)" | sed -u '/no work to do/d; /Re-checking globbed/d' >&2
+    cmake --build "$build" --target "${targets[@]}" -j "$(nproc)" | sed -u '/no work to do/d; /Re-checking globbed/d' >&2
 }

@@ -1,17 +1,17 @@
 # What `cmake --install` puts where, and the Debian packages that cpack makes of it: neumann, the program with its manual and scenes,
 # libneumann-dev, the libraries with headers and CMake package, python3-neumann, the Python module, where it is built, and
-# libneumann-pictures, which these three need to read and write pictures.
+# libneumann-modules, which these three load to read and write pictures and to read scenes of other programs.
 include(CMakePackageConfigHelpers)
 set(packaging ${PROJECT_SOURCE_DIR}/apps/packaging)
 set(scenes ${CMAKE_INSTALL_DATADIR}/neumann/scenes)
 
 install(TARGETS neumann RUNTIME COMPONENT program)
 install(TARGETS neumann-experiments RUNTIME DESTINATION ${NEUMANN_MODULES} COMPONENT program)
-install(TARGETS neumann_read_pictures neumann_write_pictures LIBRARY DESTINATION ${NEUMANN_MODULES} COMPONENT pictures)
+install(TARGETS neumann_read_pictures neumann_write_pictures neumann_import_scenes LIBRARY DESTINATION ${NEUMANN_MODULES} COMPONENT modules)
 if(NEUMANN_MPI)
   install(TARGETS neumann_mpi neumann_petsc LIBRARY DESTINATION ${NEUMANN_MODULES} COMPONENT program)
 endif()
-install(FILES ${packaging}/copyright DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libneumann-pictures COMPONENT pictures)
+install(FILES ${packaging}/copyright DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libneumann-modules COMPONENT modules)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/scenes/ DESTINATION ${scenes} COMPONENT program)
 install(FILES ${packaging}/copyright DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
 
@@ -54,11 +54,11 @@ install(FILES ${packaging}/copyright DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/li
 
 # One package a component.
 set(CPACK_GENERATOR DEB)
-set(CPACK_COMPONENTS_ALL program pictures development)
+set(CPACK_COMPONENTS_ALL program modules development)
 set(CPACK_DEBIAN_ENABLE_COMPONENT_DEPENDS ON)
-set(CPACK_COMPONENT_PROGRAM_DEPENDS pictures)
-set(CPACK_COMPONENT_DEVELOPMENT_DEPENDS pictures)
-set(CPACK_COMPONENT_PYTHON_DEPENDS pictures)
+set(CPACK_COMPONENT_PROGRAM_DEPENDS modules)
+set(CPACK_COMPONENT_DEVELOPMENT_DEPENDS modules)
+set(CPACK_COMPONENT_PYTHON_DEPENDS modules)
 set(CPACK_COMPONENTS_GROUPING IGNORE)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_STRIP_FILES ON)
@@ -76,12 +76,16 @@ set(CPACK_DEBIAN_PROGRAM_DESCRIPTION "renders each bounce of light as a picture 
  once, summed, and compared: how large each bounce is, how large the rest is
  that was left out, how certain every pixel is, and how the error falls with
  run time. It reads Mitsuba 3 scenes.")
-set(CPACK_DEBIAN_PICTURES_PACKAGE_NAME libneumann-pictures)
-set(CPACK_DEBIAN_PICTURES_PACKAGE_SECTION libs)
-set(CPACK_DEBIAN_PICTURES_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PICTURES_DESCRIPTION "pictures of neumann as files
- The parts of neumann that read and write pictures. Each is loaded when it is
- first needed, so that all else starts at once.")
+set(CPACK_DEBIAN_MODULES_PACKAGE_NAME libneumann-modules)
+set(CPACK_DEBIAN_MODULES_PACKAGE_SECTION libs)
+set(CPACK_DEBIAN_MODULES_PACKAGE_SHLIBDEPS ON)
+# Its name in 0.1.
+set(CPACK_DEBIAN_MODULES_PACKAGE_REPLACES libneumann-pictures)
+set(CPACK_DEBIAN_MODULES_PACKAGE_CONFLICTS libneumann-pictures)
+set(CPACK_DEBIAN_MODULES_DESCRIPTION "pictures and scenes of other programs for neumann
+ The parts of neumann that read and write pictures and that read scenes of
+ glTF, pbrt, COLLADA and Tungsten. Each is loaded when it is first needed, so
+ that all else starts at once.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libneumann-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libembree-dev, libglm-dev, libtbb-dev, libpugixml-dev, zlib1g-dev, \

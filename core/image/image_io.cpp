@@ -8,21 +8,16 @@ namespace neumann {
 
 namespace {
 
-template <class Codec>
-const Codec& load(const char* file, const char* name) {
-    const auto offer =
-        reinterpret_cast<const Codec* (*)()>(function_in_module(file, name, "pictures can be neither read nor written"));
-    return *offer();
-}
+constexpr const char* without = "pictures can be neither read nor written";
 
 // OpenImageIO takes 0.3 s to load with its 260 libraries, so it is loaded only when a picture is read.
 const PictureReader& reader() {
-    static const PictureReader& loaded = load<PictureReader>(NEUMANN_READER, "neumann_picture_reader");
+    static const auto& loaded = offer_of_module<PictureReader>(NEUMANN_READER, "neumann_picture_reader", without);
     return loaded;
 }
 
 const PictureWriter& writer() {
-    static const PictureWriter& loaded = load<PictureWriter>(NEUMANN_WRITER, "neumann_picture_writer");
+    static const auto& loaded = offer_of_module<PictureWriter>(NEUMANN_WRITER, "neumann_picture_writer", without);
     return loaded;
 }
 

@@ -1,24 +1,32 @@
 #include "core/reader/read_raw_scene.h"
 
-#include "core/reader/formats/collada/read_collada.h"
-#include "core/reader/formats/file_kinds.h"
-#include "core/reader/formats/gltf/import_gltf.h"
-#include "core/reader/formats/pbrt/import_pbrt.h"
-#include "core/reader/formats/tungsten/import_tungsten.h"
+#include "core/base/module.h"
+#include "core/reader/file_kinds.h"
+#include "core/reader/formats/scene_importers.h"
 #include "core/reader/xml/parse_xml.h"
 
 namespace neumann::reader {
 
+namespace {
+
+const SceneImporters& importers() {
+    static const auto& loaded = offer_of_module<SceneImporters>(NEUMANN_SCENE_IMPORTERS, "neumann_scene_importers",
+                                                                "scenes of other programs cannot be read");
+    return loaded;
+}
+
+}  // namespace
+
 RawScene read_raw_scene(const std::string& path, const NamedValues& definitions, Warnings& warnings, Problems& problems) {
     switch (scene_format(path)) {
         case SceneFormat::collada:
-            return read_collada(path, definitions, warnings, problems);
+            return importers().collada(path, definitions, warnings, problems);
         case SceneFormat::gltf:
-            return import_gltf(path, definitions, warnings, problems);
+            return importers().gltf(path, definitions, warnings, problems);
         case SceneFormat::pbrt:
-            return import_pbrt(path, definitions, warnings, problems);
+            return importers().pbrt(path, definitions, warnings, problems);
         case SceneFormat::tungsten:
-            return import_tungsten(path, definitions, warnings, problems);
+            return importers().tungsten(path, definitions, warnings, problems);
         default:
             return {parse_xml(path), {path}};
     }

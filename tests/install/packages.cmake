@@ -31,16 +31,16 @@ function(expect name fields files)
 endfunction()
 
 expect(neumann
-  "Package: neumann\n;Section: graphics\n;Depends: [^\n]*libneumann-pictures \\(= [^\n]*libembree;Recommends: fonts-dejavu-core\n"
+  "Package: neumann\n;Section: graphics\n;Depends: [^\n]*libneumann-modules \\(= [^\n]*libembree;Recommends: fonts-dejavu-core\n"
   "bin/neumann;lib/neumann/neumann-experiments;share/man/man1/neumann.1.gz;share/man/man1/neumann-render.1.gz;share/doc/neumann/copyright;share/neumann/scenes/cornell-box/cornell-box.xml")
-expect(libneumann-pictures
-  "Package: libneumann-pictures\n;Section: libs\n;Depends: [^\n]*libopenexr[^\n]*libopenimageio" "share/doc/libneumann-pictures/copyright")
+expect(libneumann-modules
+  "Package: libneumann-modules\n;Section: libs\n;Depends: [^\n]*libopenexr[^\n]*libopenimageio" "lib/neumann/libneumann_import_scenes.so;share/doc/libneumann-modules/copyright")
 expect(libneumann-dev
   "Package: libneumann-dev\n;Section: libdevel\n;Depends: [^\n]*libembree-dev"
   "include/neumann/core/scene/scene.h;include/neumann/operators/algebra/neumann_series.h;share/doc/libneumann-dev/copyright")
 if(PYTHON)
   expect(python3-neumann
-    "Package: python3-neumann\n;Section: python\n;Depends: [^\n]*libneumann-pictures[^\n]*python3-numpy, python3-scipy, [^\n]*libembree;Recommends: python3-matplotlib"
+    "Package: python3-neumann\n;Section: python\n;Depends: [^\n]*libneumann-modules[^\n]*python3-numpy, python3-scipy, [^\n]*libembree;Recommends: python3-matplotlib"
     "lib/python3/dist-packages/neumann/__init__.py;lib/python3/dist-packages/neumann/py.typed;share/doc/python3-neumann/copyright")
 endif()
 file(REMOVE_RECURSE ${FOLDER})

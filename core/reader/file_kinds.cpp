@@ -1,4 +1,4 @@
-#include "core/reader/formats/file_kinds.h"
+#include "core/reader/file_kinds.h"
 
 #include "core/base/error.h"
 #include "core/base/input_file.h"
