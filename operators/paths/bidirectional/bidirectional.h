@@ -8,13 +8,14 @@
 // The MIS weights of all ways to make a path add up to 1 (path_weights.h). Bounce 0 is made by (0, 2) alone.
 #pragma once
 
-#include "core/base/hot.h"
+#include "core/sampling/sampler.h"
 #include "operators/paths/bidirectional/film_splats.h"
 #include "operators/paths/bidirectional/joining_edges.h"
 #include "operators/paths/bidirectional/made_ways.h"
 #include "operators/paths/walk/walk_settings.h"
 
 #include <algorithm>
+#include <functional>
 
 namespace neumann {
 
@@ -44,29 +45,33 @@ public:
           emission_(scene.geometry, scene.emitters),
           lights_(scene.geometry, scene.emitters, settings.direct.lights, settings.direct.place) {}
 
-    // Traces a path for each ray; `camera` and `light` give the random numbers of its subpaths. Calls found(i, WayContribution)
-    // for contributions of path i to its own pixel, and splatted(i, position, WayContribution) for contributions of its light
-    // subpath at a position on the film, times the number of pixels. Adds the numbers of rays to `counts`, which has
-    // N + 2 entries. `ways` tells which ways are made (made_ways.h); the random numbers that a way takes do not depend
-    // on which others are made. Returns the number of walks given up.
-    template <class Transport, class Sampler, class LightRandom, class OnFound, class OnSplat, class Observer = NoObserver,
-              class Ways = AllWays>
-    NEUMANN_HOT std::uint64_t trace(const Transport& T, std::span<const CameraRay> rays, std::span<Sampler> camera,
-                                    std::span<LightRandom> light, BidirectionalWork& work, const OnFound& found,
-                                    const OnSplat& splatted, std::span<std::uint64_t> counts, const Observer& observer = {},
-                                    const Ways& ways = {}) const {
-        trace_light_half(T, light, work, splatted, counts, observer, ways);
-        return trace_camera_half(T, rays, camera, work, found, counts, observer, ways);
+    // A contribution of path i to its own pixel; and one of its light subpath at a position on the film, times the number of
+    // pixels. They are called once a ray or less, so that one compiled trace() serves all.
+    using OnFound = std::function<void(std::uint32_t i, const WayContribution&)>;
+    using OnSplat = std::function<void(std::uint32_t i, const Vec2& position, const WayContribution&)>;
+
+    // Traces a path for each ray; `camera` and `light` give the random numbers of its subpaths. Adds the numbers of rays to
+    // `counts`, which has N + 2 entries. `ways` tells which ways are made (made_ways.h); the random numbers that a way takes
+    // do not depend on which others are made. Returns the number of walks given up.
+    template <class Numbers, class Observer, class Ways = AllWays>
+    std::uint64_t trace(std::span<const CameraRay> rays, std::span<Numbers> camera, std::span<Numbers> light,
+                        BidirectionalWork& work, const OnFound& found, const OnSplat& splatted, std::span<std::uint64_t> counts,
+                        const Observer& observer, const Ways& ways = {}) const {
+        trace_light_half(light, work, splatted, counts, observer, ways);
+        return trace_camera_half(rays, camera, work, found, counts, observer, ways);
     }
+    std::uint64_t trace(std::span<const CameraRay> rays, std::span<Sampler> camera, std::span<Sampler> light,
+                        BidirectionalWork& work, const OnFound& found, const OnSplat& splatted, std::span<std::uint64_t> counts,
+                        const NoObserver& = {}) const;
 
 private:
-    template <class Transport, class LightRandom, class OnSplat, class Observer, class Ways>
-    void trace_light_half(const Transport& T, std::span<LightRandom> samplers, BidirectionalWork& work, const OnSplat& splatted,
+    template <class Numbers, class Observer, class Ways>
+    void trace_light_half(std::span<Numbers> samplers, BidirectionalWork& work, const OnSplat& splatted,
                           std::span<std::uint64_t> counts, const Observer& observer, const Ways& ways) const;
-    template <class Transport, class Sampler, class OnFound, class Observer, class Ways>
-    std::uint64_t trace_camera_half(const Transport& T, std::span<const CameraRay> rays, std::span<Sampler> samplers,
-                                    BidirectionalWork& work, const OnFound& found, std::span<std::uint64_t> counts,
-                                    const Observer& observer, const Ways& ways) const;
+    template <class Numbers, class Observer, class Ways>
+    std::uint64_t trace_camera_half(std::span<const CameraRay> rays, std::span<Numbers> samplers, BidirectionalWork& work,
+                                    const OnFound& found, std::span<std::uint64_t> counts, const Observer& observer,
+                                    const Ways& ways) const;
 
     const Scene* scene_;
     WalkSettings settings_;
@@ -75,10 +80,10 @@ private:
     LightSampler lights_;
 };
 
-template <class Transport, class LightRandom, class OnSplat, class Observer, class Ways>
-void Bidirectional::trace_light_half(const Transport& T, std::span<LightRandom> samplers, BidirectionalWork& work,
-                                     const OnSplat& splatted, std::span<std::uint64_t> counts, const Observer& observer,
-                                     const Ways& ways) const {
+template <class Numbers, class Observer, class Ways>
+void Bidirectional::trace_light_half(std::span<Numbers> samplers, BidirectionalWork& work, const OnSplat& splatted,
+                                     std::span<std::uint64_t> counts, const Observer& observer, const Ways& ways) const {
+    const Geometry& T = scene_->geometry;
     const Heuristic h = settings_.direct.heuristic;
     const Ending ending{settings_.bounces, settings_.roulette, 0.0, 0};
     work.light_path.resize(samplers.size());
@@ -118,10 +123,11 @@ void Bidirectional::trace_light_half(const Transport& T, std::span<LightRandom> 
         [&](int j, std::size_t n) { counts[static_cast<std::size_t>(j)] += n; }, observer);
 }
 
-template <class Transport, class Sampler, class OnFound, class Observer, class Ways>
-std::uint64_t Bidirectional::trace_camera_half(const Transport& T, std::span<const CameraRay> rays, std::span<Sampler> samplers,
+template <class Numbers, class Observer, class Ways>
+std::uint64_t Bidirectional::trace_camera_half(std::span<const CameraRay> rays, std::span<Numbers> samplers,
                                                BidirectionalWork& work, const OnFound& found, std::span<std::uint64_t> counts,
                                                const Observer& observer, const Ways& ways) const {
+    const Geometry& T = scene_->geometry;
     const Heuristic h = settings_.direct.heuristic;
     const Ending ending = settings_.ending();
     const int N = settings_.bounces;

@@ -22,17 +22,17 @@ inline std::optional<Rgb> diffuse_reflection(const SurfaceSide& side) {
 
 // A plain_walk() that ends where reads(i, walker, normal, weight, b) returns true, because the cache was read at the
 // walker's vertex. `weight` is β ρ/π, the weight of the irradiance read.
-template <class Sampler, class Reads, class Find, class Observer = NoObserver>
+template <class Reads, class Find, class Observer = NoObserver>
 void walk_to_records(const Scene& scene, const DirectLightSampler& direct, const WalkSettings& settings,
                      std::span<Sampler> samplers, PlainWalkers& walkers, std::span<std::uint64_t> rays, std::uint64_t& given_up,
                      const Reads& reads, const Find& find, const Observer& observer = {}) {
-    plain_walk(
-        scene, direct, settings, samplers, walkers, rays, given_up, [](int) {},
-        [&](std::uint32_t i, const Walker& w, const SurfaceSide& side, int bounce) {
-            const auto reflection = diffuse_reflection(side);
-            return reflection && reads(i, w, side.p.frame.n, w.beta * *reflection, bounce);
-        },
-        find, observer);
+    const PlainWalkCalls calls{.reads =
+                                   [&](std::uint32_t i, const Walker& w, const SurfaceSide& side, int bounce) {
+                                       const auto reflection = diffuse_reflection(side);
+                                       return reflection && reads(i, w, side.p.frame.n, w.beta * *reflection, bounce);
+                                   },
+                               .find = find};
+    plain_walk(scene, direct, settings, {samplers}, walkers, rays, given_up, calls, observer);
 }
 
 }  // namespace neumann

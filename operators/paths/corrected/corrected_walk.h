@@ -250,8 +250,8 @@ struct CorrectedWalk::Steps : WalkSteps<CorrectedWalkers> {
 };
 
 template <class LightSamplers, class Samplers, class Observer>
-NEUMANN_HOT void CorrectedWalk::operator()(CorrectedWalkers& walkers, const LightSamplers& light_sampler,
-                                           const Samplers& sampler_of, TermSamples& out, const Observer& observer) const {
+NEUMANN_FLAT void CorrectedWalk::operator()(CorrectedWalkers& walkers, const LightSamplers& light_sampler,
+                                            const Samplers& sampler_of, TermSamples& out, const Observer& observer) const {
     Steps<LightSamplers, Samplers, Observer> steps{
         {scene_, direct_, settings_, walkers, out.rays}, *this, light_sampler, sampler_of, out, observer};
     camera_walk(walkers.samplers, walkers, steps, out.given_up, observer);

@@ -61,6 +61,7 @@ private:
     // Traces the paths of proposed_, whose ways are set.
     template <class Observer>
     void trace(std::span<std::uint64_t> counts, const Observer& observer);
+    void trace(std::span<std::uint64_t> counts, const NoObserver&);
     template <class OnLeft>
     void leave(std::uint32_t chain, const State& state, const OnLeft& left) const {
         if (state.weight > 0.0 && state.size > 0.0)
@@ -108,7 +109,7 @@ void ChainBatch::trace(std::span<std::uint64_t> counts, const Observer& observer
         proposed_[i].position = position;
     };
     bidirectional_->trace(
-        scene_->geometry, std::span<const CameraRay>(rays_), std::span(camera_), std::span(light_), work_,
+        std::span<const CameraRay>(rays_), std::span(camera_), std::span(light_), work_,
         [&](std::uint32_t i, const WayContribution& f) {
             set(i, positions_[i], f, area_->pixels() * scene_->camera.response(positions_[i]));
         },

@@ -77,8 +77,7 @@ public:
             if (!is_black(value)) found(i, WayFound{f.bounce, f.s, value, position});
         };
         return bidirectional_.trace(
-            scene_->geometry, std::span<const CameraRay>(work.rays), std::span(work.camera), std::span(work.light),
-            work.bidirectional,
+            std::span<const CameraRay>(work.rays), std::span(work.camera), std::span(work.light), work.bidirectional,
             [&](std::uint32_t i, const WayContribution& f) {
                 tell(i, work.positions[i], f, area_.pixels() * scene_->camera.response(work.positions[i]));
             },

@@ -45,8 +45,8 @@ public:
         : scene_(scene), direct_(direct), settings_(settings), pilot_(pilot), pass_(pass), gather_(pilot.settings.gather) {}
 
     template <class Sampler, class Observer = NoObserver>
-    NEUMANN_HOT void operator()(std::span<const CameraRay> rays, std::span<Sampler> samplers, PhotonWalkers& walkers,
-                                TermSamples& out, const Observer& observer = {}) const;
+    NEUMANN_FLAT void operator()(std::span<const CameraRay> rays, std::span<Sampler> samplers, PhotonWalkers& walkers,
+                                 TermSamples& out, const Observer& observer = {}) const;
 
 private:
     template <class Sampler, class Observer>
@@ -142,8 +142,8 @@ struct PhotonWalk::Steps : WalkSteps<PhotonWalkers> {
 };
 
 template <class Sampler, class Observer>
-NEUMANN_HOT void PhotonWalk::operator()(std::span<const CameraRay> rays, std::span<Sampler> samplers, PhotonWalkers& walkers,
-                                        TermSamples& out, const Observer& observer) const {
+NEUMANN_FLAT void PhotonWalk::operator()(std::span<const CameraRay> rays, std::span<Sampler> samplers, PhotonWalkers& walkers,
+                                         TermSamples& out, const Observer& observer) const {
     Steps<Sampler, Observer> steps{{scene_, direct_, settings_, walkers, out.rays}, *this, samplers, out, observer};
     find_first_vertices(scene_, scene_.geometry, rays, walkers, out.rays[0], observer,
                         [&](std::uint32_t i, const Rgb& Le) { steps.find(i, 0, Le); });

@@ -63,7 +63,7 @@ private:
 
 // Samples all terms along some camera rays. `rays` has `size` samples of each pixel, pixel by pixel, and `sharing`
 // successive pixels share tails. walk_tails(settings, samplers, walkers, out, observer) is walk_on() of walk.h.
-template <class Sampler, class WalkTails, class Observer = NoObserver>
+template <class WalkTails, class Observer = NoObserver>
 NEUMANN_HOT void walk_reusing(const Scene& scene, const DirectLightSampler& direct, const DiffuseSides& diffuse,
                               const WalkSettings& settings, std::size_t size, std::size_t sharing, std::span<const CameraRay> rays,
                               std::span<Sampler> samplers, TermSamples& out, const WalkTails& walk_tails,
@@ -80,18 +80,17 @@ NEUMANN_HOT void walk_reusing(const Scene& scene, const DirectLightSampler& dire
     // The walks go to the first diffuse vertex, with its direct light, and on to the next vertex.
     find_first_vertices(scene, scene.geometry, rays, walkers, out.rays[0], observer,
                         [&](std::uint32_t i, const Rgb& Le) { find(i, 0, Le); });
-    plain_walk(
-        scene, direct, settings, samplers, walkers, out.rays, out.given_up, [](int) {},
-        [&](std::uint32_t i, const Walker& w, const SurfaceSide& side, int bounce) {
-            const auto* material = std::get_if<Diffuse>(side.bsdf);
-            if (!material || bounce >= N) return false;
-            // Walks that certainly end here never find a y, so they count in no weight.
-            const Rgb weight = w.beta * material->reflectance(side.p);
-            if (is_black(weight) || !(side.p.frame.to_local(w.wo).z > 0.0)) return false;
-            edges[i] = {.x = w.x, .y = {}, .nx = side.p.frame.n, .weight = weight, .reflections = bounce};
-            return true;
-        },
-        find, observer);
+    const auto ends_at_diffuse = [&](std::uint32_t i, const Walker& w, const SurfaceSide& side, int bounce) {
+        const auto* material = std::get_if<Diffuse>(side.bsdf);
+        if (!material || bounce >= N) return false;
+        // Walks that certainly end here never find a y, so they count in no weight.
+        const Rgb weight = w.beta * material->reflectance(side.p);
+        if (is_black(weight) || !(side.p.frame.to_local(w.wo).z > 0.0)) return false;
+        edges[i] = {.x = w.x, .y = {}, .nx = side.p.frame.n, .weight = weight, .reflections = bounce};
+        return true;
+    };
+    plain_walk(scene, direct, settings, {samplers}, walkers, out.rays, out.given_up, {.reads = ends_at_diffuse, .find = find},
+               observer);
 
     // The tails are walks of their own with N − 1 bounces.
     Walkers tails;

@@ -4,10 +4,11 @@
 // true for walks that ended so at a point that is not infinite, and their x is this point. Leaves nothing out.
 #pragma once
 
-#include "core/base/hot.h"
+#include "core/sampling/sampler.h"
 #include "operators/paths/walk/camera_walk.h"
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -18,41 +19,56 @@ struct PlainWalkers : Walkers {
     std::vector<char> reads;    // whether it has ended so
 };
 
-template <class Samplers, class AnyWalkers, class Branches, class Reads, class Find, class Observer>
-struct PlainSteps : WalkSteps<AnyWalkers> {
-    Samplers& samplers;
-    const Branches& branches;
-    const Reads& reads;
-    const Find& find;
+// The random numbers of walks: each has its own, or those of the path of which it is a branch.
+struct WalkNumbers {
+    std::span<Sampler> samplers;
+    const std::vector<std::uint32_t>* path_of = nullptr;
+
+    Sampler& operator[](std::uint32_t i) const { return samplers[path_of ? (*path_of)[i] : i]; }
+};
+
+// They are called once a vertex, for which a ray or two are cast, so that one compiled walk serves all.
+struct PlainWalkCalls {
+    std::function<void(int bounce)> branches = {};  // may be empty
+    std::function<bool(std::uint32_t i, const Walker&, const SurfaceSide&, int bounce)> reads;
+    std::function<void(std::uint32_t i, std::size_t q, const Rgb& light)> find;  // adds light to bounce q, or to the rest, N + 1
+};
+
+template <class Observer>
+struct PlainSteps : WalkSteps<PlainWalkers> {
+    const WalkNumbers& numbers;
+    const PlainWalkCalls& calls;
     const Observer& observer;
 
     bool reflect(int bounce, std::size_t q) {
-        branches(bounce);
-        AnyWalkers& all = this->walkers;
+        if (calls.branches) calls.branches(bounce);
+        PlainWalkers& all = this->walkers;
         all.is_last.resize(all.walker.size());
         all.reads.resize(all.walker.size());
         sample_reflections(
-            *this, samplers, bounce, q,
+            *this, numbers, bounce, q,
             [&](std::uint32_t i, const Walker& w, const SurfaceSide& side, std::size_t number) {
-                if (number == 1) all.is_last[i] = !this->settings.ending().is_last(bounce) && reads(i, w, side, bounce);
+                if (number == 1) all.is_last[i] = !this->settings.ending().is_last(bounce) && calls.reads(i, w, side, bounce);
                 return true;
             },
             observer);
         return true;
     }
+    void find(std::uint32_t i, std::size_t q, const Rgb& light) { calls.find(i, q, light); }
     bool goes_on(Walker&, std::uint32_t i, int) const { return !(this->walkers.reads[i] = this->walkers.is_last[i]); }
 };
 
-// Continues walks from their first vertices. samplers[i] gives the random numbers of walker i; find(i, q, light) adds
-// light to bounce q, or to the rest, q = N + 1. Counts the rays of each.
-template <class Samplers, class AnyWalkers, class Branches, class Reads, class Find, class Observer = NoObserver>
-NEUMANN_HOT void plain_walk(const Scene& scene, const DirectLightSampler& direct, const WalkSettings& settings, Samplers& samplers,
-                            AnyWalkers& walkers, std::span<std::uint64_t> rays, std::uint64_t& given_up, const Branches& branches,
-                            const Reads& reads, const Find& find, const Observer& observer = {}) {
+// Continues walks from their first vertices, and counts the rays of each bounce.
+template <class Observer>
+void plain_walk(const Scene& scene, const DirectLightSampler& direct, const WalkSettings& settings, const WalkNumbers& numbers,
+                PlainWalkers& walkers, std::span<std::uint64_t> rays, std::uint64_t& given_up, const PlainWalkCalls& calls,
+                const Observer& observer) {
     walkers.reads.assign(walkers.walker.size(), 0);
-    PlainSteps<Samplers, AnyWalkers, Branches, Reads, Find, Observer> steps{
-        {scene, direct, settings, walkers, rays}, samplers, branches, reads, find, observer};
-    camera_walk(samplers, walkers, steps, given_up, observer);
+    PlainSteps<Observer> steps{{scene, direct, settings, walkers, rays}, numbers, calls, observer};
+    camera_walk(numbers, walkers, steps, given_up, observer);
 }
+void plain_walk(const Scene& scene, const DirectLightSampler& direct, const WalkSettings& settings, const WalkNumbers& numbers,
+                PlainWalkers& walkers, std::span<std::uint64_t> rays, std::uint64_t& given_up, const PlainWalkCalls& calls,
+                const NoObserver& = {});
 
 }  // namespace neumann

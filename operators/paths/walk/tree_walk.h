@@ -21,7 +21,7 @@ struct TreeWalkers : PlainWalkers {
 
 // Samples all terms along some camera rays. ratios[j − 1] is r_j; deeper reflections neither split nor end the walk by
 // it. The numbers that the observer gets are those of walkers in `walkers`.
-template <class Sampler, class Observer = NoObserver>
+template <class Observer = NoObserver>
 void walk_tree(const Scene& scene, const DirectLightSampler& direct, const WalkSettings& settings, std::span<const double> ratios,
                std::span<const CameraRay> rays, std::span<Sampler> samplers, TreeWalkers& walkers, TermSamples& out,
                const Observer& observer = {}) {
@@ -35,11 +35,7 @@ void walk_tree(const Scene& scene, const DirectLightSampler& direct, const WalkS
     find_first_vertices(scene, scene.geometry, rays, walkers, out.rays[0], observer,
                         [&](std::uint32_t i, const Rgb& Le) { find(i, 0, Le); });
 
-    struct OfPaths {
-        std::span<Sampler> samplers;
-        const std::vector<std::uint32_t>& path;
-        Sampler& operator[](std::uint32_t i) const { return samplers[path[i]]; }
-    } of_paths{samplers, walkers.path};
+    const WalkNumbers of_paths{samplers, &walkers.path};
     std::vector<Walker> branches;
     std::vector<std::uint32_t> paths;
     const auto branch = [&](int bounce) {
@@ -58,8 +54,8 @@ void walk_tree(const Scene& scene, const DirectLightSampler& direct, const WalkS
         walkers.alive.resize(walkers.walker.size());
         std::iota(walkers.alive.begin(), walkers.alive.end(), 0u);
     };
-    plain_walk(
-        scene, direct, settings, of_paths, walkers, out.rays, out.given_up, branch, [](auto...) { return false; }, find, observer);
+    plain_walk(scene, direct, settings, of_paths, walkers, out.rays, out.given_up,
+               {branch, [](std::uint32_t, const Walker&, const SurfaceSide&, int) { return false; }, find}, observer);
 }
 
 }  // namespace neumann

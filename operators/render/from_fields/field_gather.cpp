@@ -32,7 +32,7 @@ FieldGather::FieldGather(const Scene& scene, const PixelLights& lights, std::siz
                          std::uint32_t rays)
     : scene_(scene), lights_(lights), stride_(stride), from_field_(from_field), rays_(rays), compared_((rays + 3) / 4) {}
 
-NEUMANN_HOT std::uint64_t FieldGather::add(const FieldPair& fields, std::span<const PixelRay> seen) const {
+NEUMANN_FLAT std::uint64_t FieldGather::add(const FieldPair& fields, std::span<const PixelRay> seen) const {
     std::uint64_t rays = 0;
     std::vector<double> arriving(stride_);
     std::vector<PixelRay> active;

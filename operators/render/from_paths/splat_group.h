@@ -70,7 +70,7 @@ void SplatSampler::trace_group(std::uint64_t replicate, std::uint32_t first, std
         }
     };
     work.tally.given_up += bidirectional_.trace(
-        T, std::span<const CameraRay>(group.rays), std::span(camera), std::span(light), work.bidirectional,
+        std::span<const CameraRay>(group.rays), std::span(camera), std::span(light), work.bidirectional,
         [&](std::uint32_t i, const WayContribution& f) { sort(f, [&](std::size_t q, const Rgb& value) { found(i, q, value); }); },
         [&](std::uint32_t i, const Vec2& position, const WayContribution& f) {
             sort(f, [&](std::size_t q, const Rgb& value) { splatted(i, position, q, value); });
