@@ -7,9 +7,8 @@ namespace neumann {
 
 // Accurate to 1e-10 for 1.01 < n < 10. For n < 1 it is 1 − F̄(n) = n² (1 − F̄(1/n)), by reciprocity.
 double diffuse_fresnel(double n);
-// The fits that Mitsuba defines its plastics with: Egan and Hilgeman, Optical Properties of Inhomogeneous Materials, 1979, for
-// n < 1, within 0.6% up to 1/n = 2; d'Eon and Irving, A Quantized-Diffusion Model for Rendering Translucent Materials, 2011, for
-// n ≥ 1.
+// The fits that Mitsuba defines its plastics with: Egan and Hilgeman, Optical Properties of Inhomogeneous Materials, 1979, for n <
+// 1, within 0.6% up to 1/n = 2; d'Eon and Irving, A Quantized-Diffusion Model for Rendering Translucent Materials, 2011, for n ≥ 1.
 double fitted_diffuse_fresnel(double n);
 
 }  // namespace neumann

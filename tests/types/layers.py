@@ -37,7 +37,7 @@ LIMITS = {
     "metropolis": 8,
     "bidirectional": 40,
     "photon": 19,
-    "lines of core, operators and apps": 98613,
+    "lines of core, operators and apps": 98709,
     "lines of tests": 45430,
 }
 

@@ -26,8 +26,7 @@ double integrate_smooth(double from, double to, const Function& f) {
 inline Vec3 at_cosine(double mu) { return {std::sqrt(1.0 - mu * mu), 0.0, mu}; }
 inline constexpr double cosines[] = {1.0, 0.8, 0.5, 0.2, 0.05};
 
-// ∫ f(ωi) dωi over the upper hemisphere, for an isotropic f seen from (sinθ, 0, cosθ). The interval is split at the
-// highlight.
+// ∫ f(ωi) dωi over the upper hemisphere, for an isotropic f seen from (sinθ, 0, cosθ). The interval is split at the highlight.
 template <class Function>
 double over_hemisphere(double mu, double tolerance, const Function& f) {
     const auto ring = [&](double z) {

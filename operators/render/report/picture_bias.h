@@ -6,9 +6,8 @@
 
 namespace neumann {
 
-// |bias| of each pixel. The bias of some methods has both signs, and so has the difference between the radii, but not
-// at the same places; for these it is the root mean square over the neighbourhood of a pixel, an eighth of the picture
-// wide.
+// |bias| of each pixel. The bias of some methods has both signs, and so has the difference between the radii, but not at the same
+// places; for these it is the root mean square over the neighbourhood of a pixel, an eighth of the picture wide.
 Image stated_bias(const TwoRadii& radii, const Image& difference);
 
 }  // namespace neumann
