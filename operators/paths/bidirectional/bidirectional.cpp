@@ -7,7 +7,7 @@ namespace neumann {
 NEUMANN_HOT std::uint64_t Bidirectional::trace(std::span<const CameraRay> rays, std::span<Sampler> camera, std::span<Sampler> light,
                                                BidirectionalWork& work, const OnFound& found, const OnSplat& splatted,
                                                std::span<std::uint64_t> counts, const NoObserver& none) const {
-    return trace<Sampler, NoObserver>(rays, camera, light, work, found, splatted, counts, none);
+    return trace<Sampler, OnFound, OnSplat, NoObserver>(rays, camera, light, work, found, splatted, counts, none);
 }
 
 }  // namespace neumann

@@ -45,32 +45,32 @@ public:
           emission_(scene.geometry, scene.emitters),
           lights_(scene.geometry, scene.emitters, settings.direct.lights, settings.direct.place) {}
 
-    // A contribution of path i to its own pixel; and one of its light subpath at a position on the film, times the number of
-    // pixels. They are called once a ray or less, so that one compiled trace() serves all.
+    // Contributions of path i to its own pixel, and of its light subpath at a position on the film, times the number of pixels.
     using OnFound = std::function<void(std::uint32_t i, const WayContribution&)>;
     using OnSplat = std::function<void(std::uint32_t i, const Vec2& position, const WayContribution&)>;
 
     // Traces a path for each ray; `camera` and `light` give the random numbers of its subpaths. Adds the numbers of rays to
     // `counts`, which has N + 2 entries. `ways` tells which ways are made (made_ways.h); the random numbers that a way takes
     // do not depend on which others are made. Returns the number of walks given up.
-    template <class Numbers, class Observer, class Ways = AllWays>
+    template <class Numbers, class Found, class Splatted, class Observer, class Ways = AllWays>
     std::uint64_t trace(std::span<const CameraRay> rays, std::span<Numbers> camera, std::span<Numbers> light,
-                        BidirectionalWork& work, const OnFound& found, const OnSplat& splatted, std::span<std::uint64_t> counts,
+                        BidirectionalWork& work, const Found& found, const Splatted& splatted, std::span<std::uint64_t> counts,
                         const Observer& observer, const Ways& ways = {}) const {
         trace_light_half(light, work, splatted, counts, observer, ways);
         return trace_camera_half(rays, camera, work, found, counts, observer, ways);
     }
+    // Of independent paths, compiled once.
     std::uint64_t trace(std::span<const CameraRay> rays, std::span<Sampler> camera, std::span<Sampler> light,
                         BidirectionalWork& work, const OnFound& found, const OnSplat& splatted, std::span<std::uint64_t> counts,
                         const NoObserver& = {}) const;
 
 private:
-    template <class Numbers, class Observer, class Ways>
-    void trace_light_half(std::span<Numbers> samplers, BidirectionalWork& work, const OnSplat& splatted,
+    template <class Numbers, class Splatted, class Observer, class Ways>
+    void trace_light_half(std::span<Numbers> samplers, BidirectionalWork& work, const Splatted& splatted,
                           std::span<std::uint64_t> counts, const Observer& observer, const Ways& ways) const;
-    template <class Numbers, class Observer, class Ways>
+    template <class Numbers, class Found, class Observer, class Ways>
     std::uint64_t trace_camera_half(std::span<const CameraRay> rays, std::span<Numbers> samplers, BidirectionalWork& work,
-                                    const OnFound& found, std::span<std::uint64_t> counts, const Observer& observer,
+                                    const Found& found, std::span<std::uint64_t> counts, const Observer& observer,
                                     const Ways& ways) const;
 
     const Scene* scene_;
@@ -80,8 +80,8 @@ private:
     LightSampler lights_;
 };
 
-template <class Numbers, class Observer, class Ways>
-void Bidirectional::trace_light_half(std::span<Numbers> samplers, BidirectionalWork& work, const OnSplat& splatted,
+template <class Numbers, class Splatted, class Observer, class Ways>
+void Bidirectional::trace_light_half(std::span<Numbers> samplers, BidirectionalWork& work, const Splatted& splatted,
                                      std::span<std::uint64_t> counts, const Observer& observer, const Ways& ways) const {
     const Geometry& T = scene_->geometry;
     const Heuristic h = settings_.direct.heuristic;
@@ -123,9 +123,9 @@ void Bidirectional::trace_light_half(std::span<Numbers> samplers, BidirectionalW
         [&](int j, std::size_t n) { counts[static_cast<std::size_t>(j)] += n; }, observer);
 }
 
-template <class Numbers, class Observer, class Ways>
+template <class Numbers, class Found, class Observer, class Ways>
 std::uint64_t Bidirectional::trace_camera_half(std::span<const CameraRay> rays, std::span<Numbers> samplers,
-                                               BidirectionalWork& work, const OnFound& found, std::span<std::uint64_t> counts,
+                                               BidirectionalWork& work, const Found& found, std::span<std::uint64_t> counts,
                                                const Observer& observer, const Ways& ways) const {
     const Geometry& T = scene_->geometry;
     const Heuristic h = settings_.direct.heuristic;

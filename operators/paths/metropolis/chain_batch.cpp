@@ -4,6 +4,6 @@
 
 namespace neumann {
 
-NEUMANN_FLAT void ChainBatch::trace(std::span<std::uint64_t> counts, const NoObserver& none) { trace<NoObserver>(counts, none); }
+NEUMANN_HOT void ChainBatch::trace(std::span<std::uint64_t> counts, const NoObserver& none) { trace<NoObserver>(counts, none); }
 
 }  // namespace neumann

@@ -76,15 +76,14 @@ public:
             const Rgb value = f.value * (f.weight * measure);
             if (!is_black(value)) found(i, WayFound{f.bounce, f.s, value, position});
         };
-        return bidirectional_.trace(
-            std::span<const CameraRay>(work.rays), std::span(work.camera), std::span(work.light), work.bidirectional,
-            [&](std::uint32_t i, const WayContribution& f) {
-                tell(i, work.positions[i], f, area_.pixels() * scene_->camera.response(work.positions[i]));
-            },
-            [&](std::uint32_t i, const Vec2& position, const WayContribution& f) {
-                if (area_.holds(position)) tell(i, position, f, 1.0);
-            },
-            counts, observer);
+        return bidirectional_.trace(std::span<const CameraRay>(work.rays), std::span(work.camera), std::span(work.light),
+                                    work.bidirectional, Bidirectional::OnFound([&](std::uint32_t i, const WayContribution& f) {
+                                        tell(i, work.positions[i], f, area_.pixels() * scene_->camera.response(work.positions[i]));
+                                    }),
+                                    Bidirectional::OnSplat([&](std::uint32_t i, const Vec2& position, const WayContribution& f) {
+                                        if (area_.holds(position)) tell(i, position, f, 1.0);
+                                    }),
+                                    counts, observer);
     }
 
 private:

@@ -27,7 +27,6 @@ struct SplatSampler::Workspace {
 template <class OnFound, class OnSplat, class Observer>
 void SplatSampler::trace_group(std::uint64_t replicate, std::uint32_t first, std::uint32_t samples, const OnFound& found,
                                const OnSplat& splatted, Workspace& work, const Observer& observer) const {
-    const Geometry& T = scene_->geometry;
     const std::size_t Q = settings_.quantities();
     const Film& film = scene_->film;
     const auto sampler_of = [&](const SobolPoints& points, std::uint32_t pixel) {
@@ -39,8 +38,8 @@ void SplatSampler::trace_group(std::uint64_t replicate, std::uint32_t first, std
     for (std::uint32_t i = 0; i < samples; ++i) light[i].start(replicate * paths + first + i);
 
     if (!joined_) {
-        work.tally.given_up += trace_light(*scene_, T, emission_, lights_, settings_.walk.ending(), std::span(light), work.light,
-                                           splatted, work.tally.rays, observer);
+        work.tally.given_up += trace_light(*scene_, scene_->geometry, emission_, lights_, settings_.walk.ending(), std::span(light),
+                                           work.light, splatted, work.tally.rays, observer);
         return;
     }
 
@@ -69,13 +68,15 @@ void SplatSampler::trace_group(std::uint64_t replicate, std::uint32_t first, std
             add(static_cast<std::size_t>(N + 2 + f.s), f.value);
         }
     };
-    work.tally.given_up += bidirectional_.trace(
-        std::span<const CameraRay>(group.rays), std::span(camera), std::span(light), work.bidirectional,
-        [&](std::uint32_t i, const WayContribution& f) { sort(f, [&](std::size_t q, const Rgb& value) { found(i, q, value); }); },
-        [&](std::uint32_t i, const Vec2& position, const WayContribution& f) {
-            sort(f, [&](std::size_t q, const Rgb& value) { splatted(i, position, q, value); });
-        },
-        work.tally.rays, observer);
+    work.tally.given_up +=
+        bidirectional_.trace(std::span<const CameraRay>(group.rays), std::span(camera), std::span(light), work.bidirectional,
+                             Bidirectional::OnFound([&](std::uint32_t i, const WayContribution& f) {
+                                 sort(f, [&](std::size_t q, const Rgb& value) { found(i, q, value); });
+                             }),
+                             Bidirectional::OnSplat([&](std::uint32_t i, const Vec2& position, const WayContribution& f) {
+                                 sort(f, [&](std::size_t q, const Rgb& value) { splatted(i, position, q, value); });
+                             }),
+                             work.tally.rays, observer);
 }
 
 }  // namespace neumann
