@@ -7,7 +7,8 @@ const toneCurves = {
   compress: v => srgb(v / (1 + v)),
   log: (v, decades) => Math.min(1, Math.max(0, 1 + Math.log10(v) / decades))
 };
-// A table of a tone curve over the 16 upper bits of a float, 1/256 of the value at most away; the last one is kept.
+// A table of a tone curve, indexed by the 16 upper bits of a float, which differ from it by at most 1/256 of its value. The last
+// table is kept.
 const toneTable = (() => {
   const float = new Float32Array(1), word = new Uint32Array(float.buffer);
   let kept = {};
@@ -20,7 +21,7 @@ const toneTable = (() => {
     return kept.table;
   };
 })();
-// Fills a canvas: at(p) is pixel p as ImageData has it.
+// Fills a canvas: at(p) is the colour of pixel p in the layout of ImageData, 0xAABBGGRR.
 const fill = (canvas, width, height, at) => {
   Object.assign(canvas, { width, height });
   const pixels = new ImageData(width, height), words = new Uint32Array(pixels.data.buffer);
@@ -29,7 +30,8 @@ const fill = (canvas, width, height, at) => {
 };
 const luminance = (r, g, b) => 0.2126 * r + 0.7152 * g + 0.0722 * b;
 
-// A colour map by its stops (red, green, blue in hexadecimal), linear between them: 256 pixels in the order of ImageData.
+// A colour map of 256 colours (0xAABBGGRR), linear between `stops`, which are red, green and blue in hexadecimal at equal
+// distances.
 const colourMap = stops => Uint32Array.from({ length: 256 }, (_, i) => {
   const at = i / 255 * (stops.length - 1), k = Math.min(stops.length - 2, Math.floor(at));
   const channel = c => {
@@ -38,14 +40,15 @@ const colourMap = stops => Uint32Array.from({ length: 256 }, (_, i) => {
   };
   return (0xff000000 | channel(2) << 16 | channel(1) << 8 | channel(0)) >>> 0;
 });
-// Stops of matplotlib's viridis (CC0), which is even to the eye and in print.
+// Stops of matplotlib's viridis (CC0): equal steps in value look equal, on the screen and in grey print.
 const viridis = colourMap(["440154", "482878", "3e4a89", "31688e", "26828e", "1f9e89", "35b779", "6ece58", "b5de2b", "fde725"]);
-// Blue below, red above, black in the middle.
+// A colour map for signed values: blue below zero, black at zero, red above.
 const signed = colourMap(["a6d4ff", "3c8fe0", "10407c", "000000", "7c2010", "e0663c", "ffc2a6"]);
 const notFinite = 0xffff00ff, unknown = 0xff808080;
 
-// How a picture is shown: at(p) is the pixel p, for ImageData, value(p) what it stands for; `ramp`, `low`, `high` and `log` tell the
-// scale. White is at 1 / exposure, and logarithms begin so many decades below.
+// The ways to show a picture, by name. Each returns at(p), the colour of pixel p (0xAABBGGRR), value(p), the value that the colour
+// stands for, and the scale: its colours `ramp`, its ends `low` and `high`, and whether it is logarithmic, `log`. White is at 1 /
+// exposure, and logarithmic scales begin `decades` powers of ten below.
 const luminanceOf = (mean, n) => p => luminance(mean[p], mean[p + n], mean[p + 2 * n]);
 const shownAs = {
   colour(series, ref, how) {
@@ -82,14 +85,15 @@ const shownAs = {
              quantity: `(${pairOf(series, other)}) / its standard error, luminance` };
   }
 };
-// A pixel's channels come from the same samples, so that their errors are taken to go together.
+// The difference of the luminances of two pictures, and its standard error. The channels of a pixel come from the same samples:
+// their errors are taken as fully correlated, so that the luminance has the weighted sum of their errors.
 const difference = (a, refA, b, refB) => {
   const n = a.pixels, [meanA, meanB] = [a.mean(refA), b.mean(refB)], [errorA, errorB] = [a.errors(refA), b.errors(refB)];
   const of = (f, p) => luminance(f(p), f(p + n), f(p + 2 * n));
   return { value: p => of(k => meanA[k] - meanB[k], p),
            error: p => Math.hypot(errorA ? of(errorA, p) : 0, errorB ? of(errorB, p) : 0) };
 };
-// Of the n values that are not 0, what 95% are at most, whatever their sign; 0 where all are 0.
+// The 95th percentile of |value(p)|, p < n, over the values that are finite and not 0; 0 if there are none.
 const largestOfMost = (n, value) => {
   const sizes = Float32Array.from({ length: n }, (_, p) => Math.abs(value(p))).filter(v => v > 0 && v < Infinity).sort();
   return sizes.length ? sizes[Math.floor(.95 * (sizes.length - 1))] : 0;

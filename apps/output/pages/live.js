@@ -1,12 +1,12 @@
 "use strict";
-// News of a render that is under way, from its server (apps/live/page_server.h).
+// Follows a render that is under way, by the answers of its server (apps/live/page_server.h).
 
 const duration = seconds => seconds < 60 ? `${Math.round(seconds)} s` : seconds < 3600 ? `${Math.floor(seconds / 60)} min ${Math.round(seconds % 60)} s`
   : `${Math.floor(seconds / 3600)} h ${Math.round(seconds % 3600 / 60)} min`;
 const progressText = ({ samples, seconds, fraction, seconds_left }) =>
   (samples ? `So far ${whole(samples)} samples a pixel` : "No samples yet") + (seconds === undefined ? "" : `, ${duration(seconds)}`) +
   (seconds_left === undefined ? "" : `; ${Math.round(100 * Math.min(1, fraction))}%, ${duration(seconds_left)} left`) + ".";
-// What the server gives; nothing if it is gone.
+// The text that the server returns for the path; undefined if the server does not answer.
 const fetched = async path => {
   try {
     return await (await fetch(path)).text();
@@ -14,7 +14,8 @@ const fetched = async path => {
     return undefined;
   }
 };
-// Calls take(), which tells whether it got them, whenever there are other data than those of `version`, and tell() with how far it is, in words, until the end.
+// Asks the server for progress until the render ends. Calls take() whenever the data are newer than `version`; take() returns
+// whether it got them. Calls tell() with a sentence about how far the render is.
 const follow = async (version, take, tell) => {
   const page = Math.random().toString(36).slice(2);
   let hasAll = false;

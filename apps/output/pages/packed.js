@@ -1,13 +1,13 @@
 "use strict";
-// Pictures as apps/output/files/packed_pictures.h packs them.
+// Unpacks the pictures that apps/output/files/packed_pictures.h packs.
 
-// What the bits of a half float stand for.
+// The value of a half float, indexed by its 16 bits.
 const halves = new Float32Array(65536);
 for (let bits = 0; bits < 65536; ++bits) {
   const exponent = bits >> 10 & 31, fraction = bits & 1023, sign = bits & 0x8000 ? -1 : 1;
   halves[bits] = sign * (exponent === 31 ? (fraction ? NaN : Infinity) : exponent ? (1024 + fraction) * 2 ** (exponent - 25) : fraction * 2 ** -24);
 }
-// Bytes, of which 13 bits are in two characters, and 6 in a last one that is alone.
+// The bytes of a text of 91 different characters: each two characters hold 13 bits, and a single last one holds 6.
 const digits = new Uint8Array(128);
 [..."!\"#$%'()*+,-./0123456789:;=>?@ABCDEFGHIJKLMNOPQRSTUVWXYZ[]^_`abcdefghijklmnopqrstuvwxyz{|}~"].forEach((c, k) => { digits[c.charCodeAt(0)] = k; });
 const bytesOf = text => {
@@ -20,18 +20,20 @@ const bytesOf = text => {
 };
 const inflated = async text =>
   new Uint8Array(await new Response(new Blob([bytesOf(text)]).stream().pipeThrough(new DecompressionStream("deflate"))).arrayBuffer());
-// Green and blue are kept less red.
+// Undoes the subtraction of the red channel from green and blue. `n`: values of a channel.
 const addRed = (values, n) => {
   for (let k = 0; k < n; ++k) { values[k + n] += values[k]; values[k + 2 * n] += values[k]; }
 };
-// The codes of errors are kept less those of the picture before, where it has some of that kind.
+// Undoes the subtraction of the previous picture's codes of errors, kind by kind, where the previous picture has errors of that
+// kind.
 const addCodes = (errors, before = {}) => {
   for (const [kind, { codes }] of Object.entries(errors)) {
     const others = before[kind]?.codes;
     if (others) for (let k = 0; k < codes.length; ++k) codes[k] += others[k];
   }
 };
-// A picture's means, a plane a channel, and by kind the codes of its errors (see addCodes), with what they stand for.
+// Returns the means of a picture, channel by channel, and its errors by kind: `codes`, which addCodes() has to complete, `values`,
+// the standard error of each code, and `block`, the side in pixels of the square that shares a code.
 const decoded = async (text, head, pixels) => {
   const n = 3 * pixels, bytes = await inflated(text), scale = 2 ** head.exponent;
   const bits = Uint16Array.from({ length: n }, (_, k) => bytes[k] << 8 | bytes[k + n]), errors = {};

@@ -1,5 +1,5 @@
 "use strict";
-// What all pages share: elements, numbers, tables, plots.
+// Functions that all pages share: they make elements, numbers, tables and plots.
 const $ = id => document.getElementById(id);
 const element = (tag, text, name) => {
   const e = document.createElement(tag);
@@ -7,7 +7,7 @@ const element = (tag, text, name) => {
   if (name) e.className = name;
   return e;
 };
-// `textual`: the columns that are text.
+// A table of texts or elements. `textual`: the indices of the columns that hold text, which is aligned left.
 const table = (head, rows, textual) => {
   const t = element("table"), line = (cells, tag) => {
     const tr = element("tr");
@@ -39,17 +39,19 @@ const number = (x, digits = 3) => {
   return m + "·10" + superscript(+e);
 };
 const whole = n => String(n).replace(/\B(?=(\d{3})+$)/g, "\u202f");
-// "W m^-2 sr^-1" as W·m⁻²·sr⁻¹.
+// Turns "W m^-2 sr^-1" into W·m⁻²·sr⁻¹.
 const unitText = unit => unit.replace(/\^(-?\d+)/g, (_, n) => superscript(n)).replaceAll(" ", "·");
 
-// Colours of Okabe and Ito, and a mark and a dash of its own for each; black is what text is.
+// The colours of Okabe and Ito, with the colour of the page's text in place of their black, which a dark page would hide. Series of
+// a plot also differ by mark and dash.
 const color = name => getComputedStyle(document.documentElement).getPropertyValue("--" + name).trim();
 const colors = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "text", "#8a6d00"];
 const marks = ["circle", "triangle", "rect", "rectRot", "crossRot", "star", "cross", "rectRounded"];
 const dashes = [[], [7, 4], [2, 3], [9, 3, 2, 3], [14, 4], [4, 2, 1, 2]];
 const style = i => ({ color: colors[i % 8] === "text" ? color("text") : colors[i % 8], mark: marks[(i + (i >> 3)) % 8], dash: dashes[i % 6] });
 
-// Error bars of points with `low` and `high`, and `xError`, where shown().
+// Draws error bars while shown() is true: vertical ones of points with `low` and `high`, horizontal ones of points with `xError`. A
+// bar whose `low` is 0 or less goes down to the edge, because the axis is logarithmic.
 const intervals = shown => ({
   id: "intervals",
   afterDatasetsDraw(chart) {
@@ -91,13 +93,13 @@ const logAxis = title => ({
     return (decades < 2.2 ? [1, 2, 5] : [1]).some(n => Math.abs(first - n) < 1e-6) ? number(value, 1) : "";
   } }
 });
-// Half a step of room on both sides: log axes of Chart.js end at the data otherwise.
+// Leaves a factor of 1.35 on both sides of the data, because the logarithmic axes of Chart.js end at the data otherwise.
 const range = (axis, values) => {
   axis.display = values.length > 0;
   axis.min = values.length ? Math.min(...values) / 1.35 : undefined;
   axis.max = values.length ? Math.max(...values) * 1.35 : undefined;
 };
-// Why there is nothing in a plot.
+// Writes into an empty plot why it is empty.
 const whereEmpty = why => ({
   id: "where-empty",
   afterDraw(chart) {

@@ -1,5 +1,5 @@
 "use strict";
-// Files out of a page: drawings, and tables for sheets and papers.
+// Saves parts of a page as files: drawings, and tables for spreadsheets and papers.
 
 const save = (name, blob) => {
   const link = element("a");
@@ -15,7 +15,8 @@ const button = (text, name, onclick) => {
   return b;
 };
 
-// A drawing on a page of its own size, which the browser prints into a PDF file: text stays text, and lines stay lines.
+// Puts a drawing on a sheet of its own size. Printed into a PDF file by the browser, its text can still be selected, and its lines
+// are not pixels.
 const printable = (name, svg) => {
   const [, width, height] = svg.match(/<svg[^>]* width="([\d.]+)" height="([\d.]+)"/);
   return `<!DOCTYPE html><meta charset="utf-8"><title>${name}</title><style>@page { size: ${width}px ${height}px; margin: 0 } body { margin: 0 } svg { display: block }</style>${svg}`;
@@ -34,7 +35,8 @@ const print = (name, svg) => {
 const cell = v => /[",\n]/.test(v) ? `"${String(v).replaceAll('"', '""')}"` : v ?? "";
 const csvOf = rows => rows.map(row => row.map(cell).join(",") + "\n").join("");
 
-// Rows as a table of the package booktabs: https://ctan.org/pkg/booktabs. The first row is the head; `textual`: the columns that are text.
+// Rows as a LaTeX table with the package booktabs (https://ctan.org/pkg/booktabs). The first row is the head. `textual`: the
+// indices of the columns that hold text.
 const latexSigns = { "-": "$-$", "\\": "\\textbackslash{}", "~": "\\textasciitilde{}", "^": "\\textasciicircum{}", "±": "$\\pm$", "·": "$\\cdot$", "−": "$-$", "–": "--", "√": "$\\surd$",
                      "×": "$\\times$", "≈": "$\\approx$", "≤": "$\\le$", "∞": "$\\infty$", "<": "$<$", ">": "$>$", "|": "$|$", "\u202f": "\\," };
 const superscripts = "⁻⁰¹²³⁴⁵⁶⁷⁸⁹";

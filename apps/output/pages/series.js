@@ -1,7 +1,8 @@
 "use strict";
-// The pictures of the page, see apps/output/files/packed_pictures.h: means, sums and errors of every bounce, a plane a channel.
+// The pictures of a render: means, sums and errors of every bounce, channel by channel. See apps/output/files/packed_pictures.h.
 
-// A picture is named by { i, sum }: bounce i, or the sum up to it; i = last + 1 is the rest, unless it is a bounce that is `absent`.
+// Methods take the name of a picture, { i, sum, absent }: bounce i, or with `sum` the sum of bounces 0 to i. i = last + 1 names the
+// rest, the sum of all bounces beyond the last one; with `absent` it names bounce last + 1, of which this render has no picture.
 class Series {
   constructor({ run, convergence, decay, pictures }, index) {
     Object.assign(this, { run, decay, index, width: pictures.width, height: pictures.height, factor: pictures.factor, exposure: pictures.exposure,
@@ -15,7 +16,7 @@ class Series {
     this.unit = unitText(run.quantity.unit);
   }
 
-  // Decodes picture i, after those before it; what was decoded stays.
+  // Decodes picture i. The pictures before it must have been decoded, because its errors are stored as differences from them.
   async load(i) {
     const picture = await decoded($(`picture-${this.index}-${i}`).textContent, this.heads[i], this.pixels);
     addCodes(picture.errors, this.planes[i - 1]?.errors);
@@ -27,8 +28,8 @@ class Series {
   has(ref) { return ref.i >= 0 && (ref.i <= this.last || (this.isRest(ref) && this.hasRest && !ref.sum)); }
   isLoaded(ref) { return this.has(ref) && ref.i < this.planes.length; }
 
-  // Red, green and blue of all pixels. Sums are made of the terms: each is off by 2⁻¹¹ of itself at most, and so is their sum where
-  // none is negative.
+  // Red of all pixels, then green, then blue. Sums are added up from the terms. The relative error of each term is at most 2⁻¹¹,
+  // and so is that of their sum where no term is negative.
   mean({ i, sum }) {
     if (!sum || i === 0) return this.planes[i].mean;
     if (this.sums.has(i)) return this.sums.get(i);
@@ -44,8 +45,9 @@ class Series {
     for (let k = 0; k <= ref.i; ++k) total += this.planes[k].mean[p];
     return total;
   }
-  // The standard errors, a function of an index as that of mean(); with `kind` "_discretisation" what patches get wrong, by pixel, in the worst
-  // channel and pixel of its block.
+  // Returns the standard errors as a function of an index into mean(), or undefined where there are none. With `kind`
+  // "_discretisation" returns the error of patches as a function of the pixel: the largest over the channels and pixels of its
+  // block.
   errors({ i, sum }, kind = "") {
     const found = this.planes[i].errors[(sum ? "sum" : "term") + kind];
     if (!found) return undefined;
@@ -58,7 +60,7 @@ class Series {
     if (i > this.last) return infinite(this.run.rest);
     return sum ? this.run.bounces.slice(0, i + 1).some(infinite) : infinite(this.run.bounces[i]);
   }
-  // Half of a pixel's 95% interval; undefined where there is none.
+  // Half of the 95% interval of the value with index p in mean(). Infinity: the error is unknown; undefined: there is no interval.
   halfInterval(ref, p) {
     const errors = this.errors(ref);
     if (!errors || this.infiniteVariance(ref)) return undefined;
@@ -79,7 +81,7 @@ class Series {
     return i <= 3 ? Array.from({ length: i + 1 }, (_, k) => power(k)).join(" + ") : `${source} + ${power(1)} + … + ${power(i)}`;
   }
   get importance() { return this.run.quantity.name.startsWith("importance"); }
-  // Over all pixels and channels: { mean, interval95 }, the latter undefined where it is not known.
+  // The mean over all pixels and channels, and half of its 95% interval, which is undefined where it is not known.
   wholeMean({ i, sum }) {
     const of = x => ({ mean: x.mean, interval95: typeof x.interval95 === "number" ? x.interval95 : undefined });
     if (i > this.last) return of(this.run.rest);

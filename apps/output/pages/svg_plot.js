@@ -1,12 +1,12 @@
 "use strict";
-// What a plot shows as a drawing and as a table. Drawings are on white, whatever the page is on.
+// A plot as an SVG drawing, and as a CSV table. Drawings have a white background even if the page is dark.
 
 const ink = of => {
   const onWhite = { text: "#111111", dim: "#555555", line: "#8a8a8a", faint: "#dddddd", back: "#ffffff" };
   return onWhite[Object.keys(onWhite).find(name => color(name) === of)] ?? of;
 };
 const escaped = text => String(text).replace(/[&<>"]/g, c => `&#${c.charCodeAt(0)};`);
-const shapes = {  // of marks, around 0, 0
+const shapes = {  // of marks: SVG paths around the origin, in pixels
   triangle: "M0-4.5 4 3H-4Z", rect: "M-3.5-3.5H3.5V3.5H-3.5Z", rectRot: "M0-4.5 4.5 0 0 4.5-4.5 0Z",
   crossRot: "M-3.5-3.5 3.5 3.5M-3.5 3.5 3.5-3.5", cross: "M-4.5 0H4.5M0-4.5V4.5", star: "M-4.5 0H4.5M0-4.5V4.5M-3.2-3.2 3.2 3.2M-3.2 3.2 3.2-3.2",
   rectRounded: "M-2-4H2A2 2 0 0 1 4-2V2A2 2 0 0 1 2 4H-2A2 2 0 0 1-4 2V-2A2 2 0 0 1-2-4Z", circle: "M-4 0A4 4 0 1 0 4 0 4 4 0 1 0-4 0Z"
@@ -50,7 +50,7 @@ const svgPlot = chart => {
   return `<svg xmlns="http://www.w3.org/2000/svg" width="${width}" height="${height}" viewBox="0 0 ${width} ${height}" font-family="sans-serif" font-size="12" fill="#111111"><rect width="100%" height="100%" fill="#ffffff"/>\n${out.join("\n")}\n</svg>\n`;
 };
 
-// All points, also those that have no place on a logarithmic axis.
+// All points of a plot as CSV, including those that a logarithmic axis cannot show.
 const csvPlot = chart => {
   const { x, y } = chart.scales, rows = chart.data.datasets.flatMap(set => (set.all ?? []).map(p => [set.label || p.label, p.bounce ?? p.x, p.y, p.half]));
   return csvOf([["series", x.options.title.text, y.options.title.text, "half of the 95% interval"], ...rows]);
