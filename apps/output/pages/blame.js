@@ -1,13 +1,13 @@
 "use strict";
-// The page of `neumann blame`: what blame.json says, and the pictures of every term.
+// The page of `neumann blame`: the contents of blame.json, and the pictures of every term.
 const data = JSON.parse($("data").textContent), { packed } = data;
-const unit = "W·m⁻²·sr⁻¹", widest = 6;  // of the z-maps
+const unit = "W·m⁻²·sr⁻¹", widest = 6;  // z at the ends of the colour scale of z-maps
 const pixels = packed.width * packed.height;
 const titleOf = t => t.first === t.last ? `bounce ${t.first}` : `bounces ${t.first} ${t.last === t.first + 1 ? "and" : "to"} ${t.last}`;
 const mean3 = v => (v[0] + v[1] + v[2]) / 3;
 const placeColor = i => ["#e69f00", "#56b4e9", "#cc79a7"][i % 3];
 
-// The verdict, and what it rests on.
+// The verdict, and the figures that it rests on.
 document.title = $("title").textContent = `${data.scene.split("/").pop()}: another renderer's pictures against our terms`;
 data.sentences.forEach(s => $("verdict").append(element("p", s)));
 facts("facts", [
@@ -46,7 +46,8 @@ const svg = (tag, attributes) => {
   return e;
 };
 const twice = (tag, attributes, color) => [svg(tag, { ...attributes, class: "halo" }), svg(tag, { ...attributes, stroke: color, "stroke-width": 2 })];
-// The places as frames, and on `withPaths` what of our paths the camera can see, from the pixel on; the part to a lamp is dashed.
+// A drawing that lies over a picture of the term: frames around the blocks that differ most and, if `withPaths`, a path of ours
+// through each. Segments without an image on the film are left out. The last segment, which leads to a lamp, is dashed.
 const overlay = (term, withPaths) => {
   const sheet = svg("svg", { viewBox: `0 0 ${packed.full_width} ${packed.full_height}`, preserveAspectRatio: "none", "aria-hidden": "true" });
   term.worst.forEach((place, i) => {
@@ -103,7 +104,7 @@ const show = async (term, i) => {
   const [theirs, ours, difference] = (await Promise.all([load(0), load(1), load(2)]));
   const errors = difference.errors.term, error = p => errors.values[errors.codes[p]];
   const value = p => of(difference.mean, p);
-  // A pixel's channels come from the same samples, so that their errors are taken to go together.
+  // The channels of a pixel come from the same samples: their errors are taken as fully correlated.
   const z = p => { const v = value(p); return v === 0 ? 0 : v / luminance(error(p), error(p + pixels), error(p + 2 * pixels)); };
   const most = largestOfMost(pixels, value), white = whitest(ours.mean) || 1;
   const byValue = scaled(signed, -(most || 1), most || 1, false, value), byError = scaled(signed, -widest, widest, false, z);
