@@ -1,7 +1,6 @@
 "use strict";
 // The plots, the controls, the keys and the pointer.
 
-// Plots.
 const goTo = i => { stop(); set({ i: Math.round(i) }); };
 const last = Math.max(...all.map(s => s.last)), anyRest = all.some(s => s.hasRest);
 const radiance = radianceOf(first);
@@ -38,7 +37,7 @@ const drawNotes = () => {
     (all.some(s => s.convergence.filter(row => Number.isFinite(row.relative_stderr_sum)).length === 1) ? " Where there is one point, errors at fewer samples were not taken." : "");
 };
 
-// What is shown, in words and on the controls.
+// Writes the state into the caption and onto the controls.
 const lastShown = () => series().last + (series().hasRest && !state.sum ? 1 : 0);
 const drawText = () => {
   const s = series(), ref = shown();
@@ -91,7 +90,7 @@ const set = change => {
   redraw();
 };
 
-// Play: all that the slider has, again and again.
+// Plays all pictures of the slider in a loop, 1.5 a second.
 const stop = () => {
   if (playing) clearInterval(playing);
   playing = null;
@@ -110,7 +109,7 @@ const movePixel = (dx, dy) => {
   const from = state.pixel ?? { x: series().width >> 1, y: series().height >> 1 }, pixel = state.pixel ? nearest({ x: from.x + dx, y: from.y + dy }) : from;
   set({ hover: null, pixel, ...(state.corner && { rect: rectOf(state.corner, pixel) }) });
 };
-// With the keys: from here on the arrows span a rectangle, until the next time.
+// Fixes a corner of a rectangle at the chosen pixel: the arrow keys then move the opposite corner, until the next call.
 const spanRect = () => {
   if (state.corner) { set({ corner: null }); return; }
   $("stage").focus();
@@ -155,7 +154,7 @@ document.addEventListener("keydown", event => {
     event.preventDefault();
     return;
   }
-  // What a control does with a key itself.
+  // The keys to which a control that has the focus reacts by itself.
   const own = { "select": () => true, "[type=range]": () => arrow || ["Home", "End"].includes(event.key), "[type=radio]": () => arrow || event.key === " ",
                 "[type=checkbox]": () => event.key === " ", "button:not(#strip *), summary, a": () => [" ", "Enter"].includes(event.key) };
   if (Object.entries(own).some(([kind, does]) => on.matches(kind) && does())) return;
@@ -165,7 +164,6 @@ document.addEventListener("keydown", event => {
   event.preventDefault();
 });
 
-// Controls.
 others.forEach(([value, text]) => { const o = element("option", text); o.value = value; $("other").append(o); });
 if (all.length > 1) {
   $("run-label").hidden = false;
@@ -189,8 +187,8 @@ $("help-button").onclick = () => $("help").showModal();
 facts("keys", keys.map(([, what]) => ["", what]));
 keys.forEach(([names], row) => names.split("  ").forEach(key => $("keys").rows[row].cells[0].append(element("kbd", key), " ")));
 
-// The pointer: hover tells values, a click chooses, a drag moves the zoomed picture or the edge of the wipe, or with
-// Shift makes a rectangle, two fingers zoom.
+// The pointer: the values under it are shown, a click chooses a pixel, and two fingers zoom. A drag moves the zoomed picture or the
+// edge of the wipe; with Shift it makes a rectangle.
 const pointers = new Map();
 let drag = null;
 const stage = $("stage");
@@ -237,7 +235,7 @@ stage.onpointerup = stage.onpointercancel = e => {
 };
 stage.onpointerleave = () => { state.hover = null; drawReadout(); };
 stage.addEventListener("wheel", e => {
-  if (!e.ctrlKey && !stage.classList.contains("zoomed") && document.activeElement !== stage) return;  // the page scrolls
+  if (!e.ctrlKey && !stage.classList.contains("zoomed") && document.activeElement !== stage) return;  // so that the page scrolls
   const box = stage.getBoundingClientRect();
   zoomTo(state.zoom * Math.exp(-.002 * e.deltaY), e.clientX - box.left, e.clientY - box.top);
   e.preventDefault();

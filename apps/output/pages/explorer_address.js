@@ -1,5 +1,5 @@
 "use strict";
-// What is shown as a part of the address, so that a link or a bookmark shows it again: #bounce=3&sum=1&pixel=19,160.
+// Keeps the state of the page in its address, so that a link or a bookmark restores it: #bounce=3&sum=1&pixel=19,160.
 
 const flag = text => ({ 0: false, 1: true })[text];
 const within = (low, high) => text => text.trim() !== "" && +text >= low && +text <= high ? +text : undefined;
@@ -20,7 +20,8 @@ const pixelsRead = (text, count) => {
 };
 const pixelsWritten = (...pixels) => pixels.map(onFilm).join();
 
-// By name: what of the state it is, how it is written, and how it is read, undefined where it means nothing.
+// For each name in the address: the member of the state, a function that writes its value, and one that reads it. The latter
+// returns undefined for a text without a meaning.
 const addressed = {
   run: ["run", v => v + 1, text => oneOf(() => all.map((_, r) => String(r + 1)))(text) && text - 1],
   bounce: ["i", v => v > series().last ? "rest" : v, text => text === "rest" ? Infinity : oneOf(() => [...Array(Math.max(...all.map(s => s.last)) + 1).keys()].map(String))(text) && +text],
@@ -42,7 +43,7 @@ const addressed = {
 };
 const beginning = { ...state };
 
-// The zoom, and the place on the film that is in the middle of the stage.
+// The zoom, and the position on the film in the middle of the stage: "zoom,x,y".
 const zoomWritten = () => {
   const side = state.fitScale * state.zoom, { clientWidth: width, clientHeight: height } = $("stage");
   return [state.zoom, ...onFilm({ x: (width / 2 - state.left) / side, y: (height / 2 - state.top) / side })].map(v => +v.toFixed(2)).join();
@@ -59,10 +60,10 @@ const lookAt = ({ zoom, middle: { x, y } }) => {
   placeSheet();
 };
 
-// Browsers refuse more than some changes of the address a second.
+// Waits until the state has not changed for 200 ms, because browsers refuse to change the address many times a second.
 let addressKept = null;
 const keepAddress = () => {
-  if (location.href === "about:srcdoc") return;  // in a frame of a notebook the page has no address
+  if (location.href === "about:srcdoc") return;  // the frame of a notebook, where the page has no address of its own
   clearTimeout(addressKept);
   addressKept = setTimeout(() => {
     const parts = Object.entries(addressed).filter(([, [key]]) => state[key] !== beginning[key] && state[key] !== null && state[key] !== "").map(([name, [key, write]]) => `${name}=${write(state[key])}`);

@@ -1,7 +1,7 @@
 "use strict";
-// The figures under the picture: of a pixel, and of a rectangle.
+// The figures under the picture: the values of a pixel, and the means of a rectangle.
 
-// Zero with an interval is what no sample met.
+// The mean of a value that no sample met is 0, and half of its interval is then an upper bound.
 const withInterval = (value, half) => !half ? number(value) : value === 0 && Number.isFinite(half) ? `0, at most ${number(half, 2)}` : `${number(value)} ± ${Number.isFinite(half) ? number(half, 2) : "unknown"}`;
 const channels = ["red", "green", "blue"];
 const figuresLine = text => {
@@ -18,8 +18,8 @@ const pixelLine = (s, ref, p) => {
   if (patches) text.push(["discretisation at most", number(patches(p), 2)]);
   return figuresLine(text);
 };
-// The mean of a rectangle, channel by channel. Errors of pixels that do not go together add up by their squares; of others only a bound is
-// known.
+// The mean of channel c over a rectangle, and half of its 95% interval: √(Σ h²) / n where the errors of the n pixels are
+// independent, else the upper bound Σ h / n.
 const rectMean = (s, ref, { x0, y0, x1, y1 }, c) => {
   const mean = s.mean(ref), n = (x1 - x0 + 1) * (y1 - y0 + 1);
   let total = 0, half = 0;
@@ -34,7 +34,7 @@ const rectLine = (s, ref, rect) => figuresLine([["", runName(s) + s.title(ref)],
   const { mean, half } = rectMean(s, ref, rect, c);
   return [name, withInterval(mean, half)];
 })]);
-// Pixels from one place to another: "9 to 10, 20".
+// The pixels of the film that the pixels a to b of the page cover: "9 to 10, 20".
 const fromTo = (a, b) => {
   const from = onFilm(a), to = onFilm(b).map(v => v + first.factor - 1);
   return from.map((v, k) => v === to[k] ? v : `${v} to ${to[k]}`).join(", ");

@@ -1,10 +1,10 @@
 "use strict";
-// How often each value occurs in the picture, and two handles: the range of the colours.
+// A histogram of the values of the picture, with two handles at the ends of the colour scale.
 
 const histogram = { of: null, log: true, low: 1, high: 10, counts: [], held: false };
 const bins = 128;
 
-// Where a value lies between the ends, from 0 to 1.
+// The position of a value between the ends of the histogram, from 0 to 1.
 const along = v => histogram.log ? Math.log(v / histogram.low) / Math.log(histogram.high / histogram.low) : (v - histogram.low) / (histogram.high - histogram.low);
 const count = () => {
   const h = histogram, values = Float64Array.from({ length: series().pixels }, (_, p) => image.value(p)), finite = values.filter(Number.isFinite);
@@ -25,7 +25,7 @@ const count = () => {
     bin >= 0 && bin < bins ? ++h.counts[bin] : ++h.beyond;
   }
 };
-// Colours by logarithms have a low end, others begin at 0.
+// Logarithmic scales have a low end that can be moved; others begin at 0.
 const hasLow = () => state.view === "false" || (state.view === "colour" && state.curve === "log");
 const hasHigh = () => state.view === "false" || state.view === "colour";
 
@@ -51,7 +51,7 @@ const drawHistogram = () => {
     $(id).setAttribute("aria-valuetext", number(value));
   }
 };
-// The exposure goes in tenths of a stop, and the low end keeps off the high one.
+// Exposure changes in tenths of a stop, and the low end stays at least 0.3 decades below the high end.
 const moveHandle = e => {
   histogram.held = true;
   const value = histogram.low * (histogram.high / histogram.low) ** e.target.value, s = series();

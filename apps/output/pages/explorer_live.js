@@ -1,10 +1,10 @@
 "use strict";
-// A render that is under way: the page takes what there is anew, and stays as it is otherwise.
+// Updates the page of a render that is under way: replaces its data, and keeps what the user has chosen.
 
 const sayHowFar = text => { $("so-far").textContent = text; };
 const loadAnew = () => new Promise(() => location.reload());
 const isAlike = (a, b) => ["width", "height", "last", "hasRest"].every(of => a[of] === b[of]);
-// What was made of pictures that are others now.
+// Forgets all that was computed from pictures that are being replaced.
 const forgetPictures = () => {
   fitted.clear();
   histogram.of = null;

@@ -1,5 +1,5 @@
 "use strict";
-// The paths of the chosen pixel: over the picture, from above, as a table; and how the pixel's mean came about.
+// The paths of the chosen pixel, over the picture, from above and as a table, and the pixel's mean against its number of samples.
 
 const pathsOf = s => data.runs[s.index].paths;
 const pathsOfPixel = () => state.pixel && pathsOf(series())?.pixels.find(({ picture: [x, y] }) =>
@@ -9,7 +9,8 @@ const shownPath = () => {
   return all && (all.find(p => String(p.sample) === state.path) ?? mostOf(all));
 };
 const mostOf = paths => paths.reduce((a, b) => (b.part ?? 0) > (a.part ?? 0) ? b : a);
-// Rays that ask for light are not all wanted; the numbers are those of the table.
+// The rays of a path that are shown: shadow rays (kind "asks") only if the user wants them. `number` is the row of the ray in the
+// table.
 const shownRays = path => path.rays.map((ray, k) => ({ ...ray, number: k + 1 })).filter(ray => state.asking || ray.kind !== "asks");
 
 const svg = (tag, attributes = {}, text) => {
@@ -18,7 +19,8 @@ const svg = (tag, attributes = {}, text) => {
   if (text !== undefined) e.textContent = text;
   return e;
 };
-// A ray in two strokes, so that it is seen on dark and on bright pictures. `a`, `b`: its ends, pixels of the drawing.
+// A ray as two lines, a wide black one below a coloured one, so that it is visible on dark and on bright pictures. The ends are in
+// pixels of the drawing. `hidden`: whether a surface hides this part of the ray from the camera.
 const stroke = (ray, [x1, y1, x2, y2], hidden) => {
   const kind = `ray ${ray.of_light ? "of-light" : "of-camera"} ${ray.kind === "asks" ? "asks" : "goes"}${hidden ? " hidden-part" : ""}${ray.kind === "asks" && !ray.found ? " blocked" : ""}`;
   return ["edge", "ink"].map(part => svg("line", { x1, y1, x2, y2, class: `${kind} ${part}`, "data-ray": ray.number }));
@@ -26,7 +28,7 @@ const stroke = (ray, [x1, y1, x2, y2], hidden) => {
 const numberAt = (ray, x, y) => [svg("circle", { cx: x, cy: y, r: 3, class: "vertex" }), svg("text", { x: x + 5, y: y - 5, class: "vertex-number" }, ray.number)];
 const isVertex = ray => ray.kind !== "asks" && ray.found && !ray.leaves;
 
-// Over the picture, in pixels of the screen: lines keep their width at any zoom.
+// Draws the path over the picture, in pixels of the screen, so that lines keep their width at any zoom.
 const drawOnPicture = () => {
   const path = state.pathShown && shownPath(), box = $("rays"), side = state.fitScale * state.zoom / first.factor;
   box.toggleAttribute("hidden", !path || !!state.slide);
@@ -36,14 +38,15 @@ const drawOnPicture = () => {
     for (const [x1, y1, x2, y2, hidden] of ray.film ?? []) lines.push(...stroke(ray, [across(x1), down(y1), across(x2), down(y2)].map(v => Math.max(-1e5, Math.min(1e5, v))), hidden));
     const end = ray.film?.at(-1);
     if (isVertex(ray) && end) marks.push(...numberAt(ray, across(end[2]), down(end[3])));
-    // The first ray is a point in the picture: the pixel itself.
+    // A ray from the camera has no extent in the picture: its vertex is marked in the middle of the pixel.
     if (isVertex(ray) && !ray.film) marks.push(...numberAt(ray, across(pathsOfPixel().picture[0] + .5), down(pathsOfPixel().picture[1] + .5)));
   }
   box.replaceChildren(...lines, ...marks);
 };
 
-// From above. The edge of the drawing cuts off what leaves the scene, the camera where it is far away, and of wide grounds what is
-// far from the path.
+// The part of the scene that the drawing from above shows: the outline, cut off where it is farther from the path than
+// `farFromPath` times the path's extent. The edge of the drawing also cuts off rays that leave the scene, and a camera that is far
+// away.
 const planWidth = 480, planMargin = 20, farFromPath = 2.5;
 const planFrame = (outline, rays) => {
   const ends = rays.filter(ray => ray.above && isVertex(ray)).map(ray => ray.above.slice(2));
@@ -73,7 +76,7 @@ const drawPlan = path => {
   $("plan-note").textContent = `From above, along ${seen_along}; what the camera looks at lies up. Paths from the camera are orange, those from a lamp blue; thin lines ask for light, and are dotted where something hides it. Over the picture what is hidden from the camera is dashed, and what lies behind it is left out.`;
 };
 
-// The table: a row a ray.
+// The table of the path, with a row for each ray.
 const sizeOf = rgb => rgb.every(Number.isFinite) ? number(luminance(...rgb)) : "not finite";
 const shapeName = meets => meets.shape.replace(/^shape /, "").replace(/[^ ]*\//, "");
 const bounceName = i => i > series().last ? "rest" : `bounce ${i}`;
@@ -94,7 +97,7 @@ const drawPathTable = path => {
     ` (luminance, ${series().unit}).` + (path.method ? ` Made by ${path.method}.` : "");
 };
 
-// The mean after 1, 2, 4, … replicates, and its error.
+// The plots of the pixel's mean and of its error after 1, 2, 4, … replicates.
 const historyPlot = plot("history", logAxis("samples of the pixel"), radianceOf(first), [intervals(() => true)]);
 const pixelErrorPlot = plot("pixel-error", logAxis("samples of the pixel"), "relative standard error", []);
 const historySets = (history, i, sum) => ["red", "green", "blue"].map((name, c) => dots(name, history.samples.map((n, k) => {
@@ -163,7 +166,7 @@ const planText = () => {
                   svg("rect", { width: "100%", height: "100%", fill: "#ffffff" }));
   return onWhite.outerHTML;
 };
-// A page that was made for a pixel shows it.
+// A page that holds paths first shows the first pixel that has some.
 {
   const given = pathsOf(first)?.pixels[0];
   if (given) state.pixel = { x: Math.floor(given.picture[0] / first.factor), y: Math.floor(given.picture[1] / first.factor) };

@@ -1,7 +1,7 @@
 "use strict";
 // The picture and its zoom.
-let image = null;  // what A shows
-// With `o` the difference to it.
+let image = null;  // what shownAs returned for picture A
+// Draws a picture. With `o`, draws its difference from picture `o`, where the view is one of differences.
 const paint = (canvas, s, ref, o) => {
   const view = comparing() && !o ? "colour" : state.view;
   const shown = shownAs[view](s, ref, { exposure: exposure(s, ref), curve: state.curve, decades: state.decades, other: o });
@@ -26,7 +26,7 @@ const drawPicture = () => {
   $("side-b").textContent = (all.length > 1 ? "" : "B: ") + runName(o.series) + o.series.title(o.ref);
   drawScale();
 };
-// `ticks`: how far along, and what is there.
+// `ticks`: pairs of the position along the scale, from 0 to 1, and the label.
 const placeTicks = (id, ticks) => $(id).replaceChildren(...ticks.map(([at, text]) => {
   const t = element("span", text);
   t.style.left = `${100 * at}%`;
@@ -49,8 +49,8 @@ const drawScale = () => {
   $("quantity").textContent = scale.quantity + (scale.log ? "; beyond the ends the colours of the ends" : "");
 };
 
-// Zoom: the sheet is the whole picture at zoom 1.
-// CSS pixels for figures; more of them have no influence on the picture's size, which stays while a rectangle is drawn.
+// The height in CSS pixels that is reserved for the figures below the picture, however many there are, so that the picture keeps
+// its size. It does not change while a rectangle is drawn.
 let room = 0;
 const figuresRoom = () => {
   if (!drag?.corner) room = state.slide ? 0 : state.rect ? 132 : 66;
@@ -58,13 +58,13 @@ const figuresRoom = () => {
 };
 const placeSheet = () => {
   const stage = $("stage"), width = stage.clientWidth, s = series(), viewer = stage.parentElement;
-  // What else the viewer holds is in sight with the picture where there is room.
+  // Limits the height of the picture so that all of the viewer is in sight, but not below 45% of the window and 240 pixels.
   const figures = $("readout").offsetHeight, taken = viewer.parentElement.offsetTop + viewer.offsetHeight - stage.offsetHeight - figures + figuresRoom();
   const limit = Math.max(.45 * innerHeight, 240, innerHeight - taken), height = state.slide ? innerHeight - taken : Math.min(width * s.height / s.width, limit);
   stage.style.height = `${height}px`;
   viewer.style.setProperty("--height", `${viewer.offsetHeight}px`);
   const scale = Math.min(width / s.width, height / s.height);
-  // What was in the middle stays there when the stage changes.
+  // Keeps the point in the middle of the stage there when the size of the stage changes.
   if (state.fitScale) {
     state.left = width / 2 - (state.stageWidth / 2 - state.left) * scale / state.fitScale;
     state.top = height / 2 - (state.stageHeight / 2 - state.top) * scale / state.fitScale;
@@ -99,7 +99,7 @@ const zoomTo = (zoom, x, y) => {
   state.zoom = to;
   placeSheet();
 };
-// With the chosen pixel in view.
+// Zooms about the chosen pixel, or about the middle of the stage if no pixel is chosen.
 const zoomAtPixel = zoom => {
   const p = state.pixel, side = state.fitScale * state.zoom;
   p ? zoomTo(zoom, state.left + (p.x + .5) * side, state.top + (p.y + .5) * side) : zoomTo(zoom);

@@ -1,7 +1,7 @@
 "use strict";
-// The plots beside the picture; each is drawn anew from the state.
+// The plots beside the picture. Their datasets are computed from the state whenever it changes.
 
-// A line through the bounce that is shown.
+// Marks the bounce that is shown by a vertical line.
 const here = at => ({
   id: "here",
   beforeDatasetsDraw(chart) {
@@ -20,7 +20,8 @@ const here = at => ({
 });
 const radianceOf = s => `${s.importance ? "importance" : "radiance"} / ${s.unit}`;
 const positive = p => p.y > 0 && Number.isFinite(p.y);
-// `all` is for the CSV: a logarithmic axis has no place for zero and less.
+// A dataset of Chart.js. `all` keeps the points for the CSV file that a logarithmic axis cannot show: those with values that are
+// not positive.
 const line = (label, all, colour, more = {}) => ({ label, all, data: all.filter(positive), showLine: true, borderColor: colour, backgroundColor: colour, borderWidth: 1.6, pointRadius: 0, pointHitRadius: 4, pointStyle: "line", ...more });
 const dots = (label, data, colour, mark, more = {}) => line(label, data, colour, { pointStyle: mark, pointRadius: 4, pointHoverRadius: 6, pointHitRadius: 8, ...more });
 
@@ -52,7 +53,8 @@ const fitRange = (chart, sets) => {
   range(chart.options.scales.y, values);
 };
 
-// Means with error bars; of a single run also what follows each bounce, its bound, and the fitted decay.
+// The means of all bounces with error bars. For a single run, also the sum of the bounces after each, the bound on that sum, and
+// the fitted decay.
 const energySets = (all, names, restAt) => all.flatMap((s, r) => {
   const bounces = s.run.bounces, tag = names[r], { color: main } = style(r), dash = r ? { borderDash: dashes[r % dashes.length] } : {};
   const sets = [dots("mean" + tag, bounces.map((b, i) => point(i, b.mean, s.wholeMean({ i }).interval95)), main, marks[r % marks.length], dash)];

@@ -1,9 +1,10 @@
 "use strict";
-// What can be taken out of the page: the picture, the plots, the values of a pixel.
+// Saves or copies parts of the page: the picture, the plots, the values of a pixel.
 
 const fileName = () => `${sceneOf(series()).replace(/\.[^.]*$/, "")}-${state.i > series().last ? "rest" : `${state.sum ? "sum" : "bounce"}-${state.i}`}`;
 
-// The canvas as it is, a pixel for a pixel, with what the wipe shows.
+// Saves the picture as it is shown, including the part of B in the wipe. A pixel of the file is a pixel of the page's picture,
+// whatever the zoom.
 const savePicture = () => {
   if (!image) return;
   const out = element("canvas"), { width, height } = $("a"), to = out.getContext("2d");
@@ -16,7 +17,7 @@ const savePicture = () => {
   out.toBlob(blob => save(`${fileName()}${state.view === "colour" ? "" : "-" + state.view}.png`, blob));
 };
 
-// A row a picture, with tabs, for a sheet.
+// The values of the chosen pixel for a spreadsheet: a row for each picture, cells separated by tabs.
 const pixelText = () => {
   const s = series(), p = state.pixel.y * s.width + state.pixel.x;
   const rows = [];

@@ -1,7 +1,7 @@
 "use strict";
-// Slides: the picture and its formula, as large as the screen.
+// Slides: the picture and its formula fill the screen.
 
-// "K^3 L_e" as elements: what follows ^ is above the line, what follows _ below it.
+// Turns "K^3 L_e" into texts and elements: one character, or a group in braces, is a superscript after ^ and a subscript after _.
 const raised = text => text.split(/([\^_]\{[^}]*\}|[\^_].)/).map(part =>
   "^_".includes(part[0] ?? " ") ? element(part[0] === "^" ? "sup" : "sub", part.slice(1).replace(/[{}]/g, "")) : part);
 const slideFormula = (s, { i, sum }) => {
@@ -18,7 +18,7 @@ const drawSlide = () => {
 const enterSlides = () => {
   set({ slide: "dark" });
   document.activeElement.blur();
-  document.documentElement.requestFullscreen?.().catch(() => {});  // the window has to do where it is not allowed
+  document.documentElement.requestFullscreen?.().catch(() => {});  // where this is not allowed, the slide fills the window
 };
 const leaveSlides = () => {
   set({ slide: "" });

@@ -1,34 +1,39 @@
 "use strict";
-// What is shown, and what it is compared with.
+// The state of the page: what is shown, and what it is compared with.
 const data = JSON.parse($("data").textContent);
 const all = data.runs.map((r, i) => new Series(r, i));
 const letter = index => String.fromCharCode(65 + index);
 const names = all.map((_, r) => all.length > 1 ? `, ${letter(r)}` : "");
 const first = all[0];
-// Pixels are named by the film, as replay names them, wherever the picture is cropped; a pixel of a reduced page by its corner.
+// Users name pixels by their coordinates on the whole film, as `neumann replay` does, even if the picture is a crop. A pixel of a
+// page that is reduced by `factor` is named by its upper left pixel on the film.
 const { crop_x: cropX = 0, crop_y: cropY = 0 } = first.run.picture;
 const onFilm = ({ x, y }) => [x * first.factor + cropX, y * first.factor + cropY];
 const fromFilm = (x, y) => ({ x: (x - cropX) / first.factor, y: (y - cropY) / first.factor });
 const state = {
   run: 0, i: Math.min(1, first.last), sum: false, view: "colour", curve: "clip", stops: 0, decades: 4, fit: false,
-  hover: null, pixel: null,  // { x, y }
-  rect: null,  // { x0, y0, x1, y1 }, all within
-  picking: false, corner: null,  // a drag makes a rectangle; the arrow keys do, from this corner
-  zoom: 1, left: 0, top: 0,  // of the picture in the stage, in CSS pixels
-  path: "", asking: true, pathShown: true,  // the sample whose path is shown; "": the largest
-  slide: "",  // dark or white
+  hover: null, pixel: null,  // { x, y }: the pixel under the pointer, and the chosen one
+  rect: null,  // { x0, y0, x1, y1 }, all inclusive
+  picking: false,  // whether a drag makes a rectangle
+  corner: null,  // the corner from which the arrow keys make a rectangle
+  zoom: 1, left: 0, top: 0,  // the position of the picture in the stage is in CSS pixels
+  path: "",  // the sample whose path is shown; "": the one that contributes most
+  asking: true, pathShown: true,  // whether shadow rays are shown, and the path over the picture
+  slide: "",  // "dark" or "white"; "": no slide
   wipe: all.length > 1, edge: .5, other: all.length > 1 ? "run" : "next"
 };
 let playing = null;
 
 const series = () => all[state.run];
 const shown = () => ({ i: state.i, sum: state.sum });
-// What is shown, of another run: rest for rest.
+// The name of the picture of run `s` that corresponds to the one shown; the rest corresponds to the rest, even if the runs have
+// different numbers of bounces.
 const same = s => {
   const i = state.i > series().last ? s.last + 1 : state.i;
   return { i, sum: state.sum, absent: i > s.last && state.i <= series().last };
 };
-// What B is: { series, ref }. Either follows what is shown or stands still.
+// The choices for B: name, label, and a function that returns the series and the name of the picture. Some depend on the picture
+// that is shown, others are fixed.
 const others = [
   ...(all.length > 1 ? [["run", `the same of the ${all.length > 2 ? "next" : "other"} run`, () => { const s = all[(state.run + 1) % all.length]; return [s, same(s)]; }]] : []),
   ...(all.length > 2 ? all.map((s, r) => [`run-${r}`, `the same of ${letter(r)}`, () => [s, same(s)]]) : []),
@@ -42,12 +47,13 @@ const other = () => {
   const [s, ref] = others.find(o => o[0] === state.other)[2]();
   return { series: s, ref };
 };
-// What is taken from what.
+// The difference that is shown, as a text.
 const pairOf = (s, o) => s === o.series ? "A − B" : `${letter(s.index)} − ${letter(o.series.index)}`;
 const comparing = () => state.view === "difference" || state.view === "z";
 const runName = s => all.length > 1 ? `${letter(s.index)}: ` : "";
 
-// Exposure: of the contact sheet, or such that the brightest hundredth of this picture is white.
+// The exposure: that of the contact sheet or, if `fit`, one at which the brightest hundredth of the lit pixels is white; times
+// 2^stops.
 const fitted = new Map();
 const exposure = (s, ref) => {
   let base = first.exposure;

@@ -1,5 +1,5 @@
 "use strict";
-// All bounces, or all sums, as small pictures in a row.
+// The strip: all bounces, or all sums, as small pictures in a row.
 const strip = { tiles: [], asked: false };
 
 const refOf = i => ({ i, sum: state.sum });
@@ -12,7 +12,7 @@ const makeTiles = count => {
   });
   $("strip").replaceChildren(...strip.tiles);
 };
-// What is shown stays in sight, and keeps the focus.
+// Scrolls the strip to the tile of the picture that is shown, and moves the focus to it if another tile has the focus.
 const bringIntoSight = tile => {
   const box = $("strip"), left = tile.offsetLeft - box.offsetLeft, right = left + tile.offsetWidth;
   if (left < box.scrollLeft || right > box.scrollLeft + box.clientWidth) box.scrollLeft = left - (box.clientWidth - tile.offsetWidth) / 2;
@@ -32,7 +32,7 @@ const drawStrip = () => {
   });
   paintTiles();
 };
-// Those in sight, in a frame as many as do not hold it up.
+// Draws the tiles that are in sight and out of date, for at most 12 ms in each frame of the browser.
 const paintTiles = () => {
   if (strip.asked) return;
   strip.asked = true;
@@ -50,7 +50,7 @@ const paintTiles = () => {
     }
   });
 };
-const largestTile = 96;  // pixels of the screen; smaller pictures are drawn whole
+const largestTile = 96;  // pixels of the screen; larger pictures are scaled down to it
 const painted = document.createElement("canvas");
 const paintTile = (canvas, s, ref) => {
   const scale = Math.min(1, largestTile / Math.max(s.width, s.height));

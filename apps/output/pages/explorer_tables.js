@@ -1,8 +1,8 @@
 "use strict";
-// The run in words.
+// Texts and tables about the runs.
 const sceneOf = s => s.run.scene.file.split("/").pop();
 const summary = s => `bounces 0 to ${s.last} by ${s.run.options.method}, ${whole(s.run.samples.per_pixel)} samples a pixel in ${number(s.run.timing.sampling_seconds)} s, ${number(s.run.timing.total_seconds)} s in all`;
-// Any JSON as text or a nested table; { mean, stderr, … } is one number with its interval.
+// generic() makes a text or nested tables of any JSON; an object { mean, stderr, … } becomes one number with its interval.
 const isMean = v => v !== null && typeof v === "object" && "mean" in v && Object.keys(v).every(k => ["mean", "stderr", "degrees_of_freedom", "interval95", "unmet", "rare_large_samples"].includes(k));
 const isFlat = v => v === null || typeof v !== "object" || isMean(v) || (Array.isArray(v) && v.every(x => x === null || typeof x !== "object"));
 const flatText = v => v === null ? "–" : Array.isArray(v) ? v.map(flatText).join(", ") || "none" : isMean(v) ? withInterval(v.mean, typeof v.interval95 === "number" ? v.interval95 : Infinity)
@@ -26,7 +26,7 @@ const generic = value => {
   return t;
 };
 const section = (title, ...parts) => $("tables").append(element("h2", title), ...parts);
-// What is long, and not what most readers came for.
+// A section that is folded until the user opens it.
 const folded = (title, ...parts) => {
   const fold = element("details");
   fold.append(element("summary", title), ...parts);
@@ -42,7 +42,8 @@ const bouncesTable = s => {
   return wide(table(["bounce", `mean / ${s.unit}`, "± (95%)", "ratio", "bound on what follows", "rays", ...(discretised ? ["discretisation"] : []), ...(subset ? ["missing"] : [])],
     [...b.map((x, i) => row(i, x)), row("sum", s.run.sum), ...(rest.mean === undefined ? [] : [row("rest", { ...rest, ratio_estimate: undefined })])], []));
 };
-// What was left out, with what that saves; what saves nothing is named together.
+// Tables of the plan: the parts that were left out and what that saves, and the parts that were kept. Parts whose omission saves
+// nothing are named in a sentence.
 const planTable = plan => {
   const leftOut = plan.filter(p => !p.kept), kept = plan.filter(p => p.kept), saving = leftOut.filter(p => !p.saves.startsWith("nothing"));
   const parts = saving.length ? [generic(saving.map(({ part, reason, saves }) => ({ "left out": part, reason, saves })))] : [];
@@ -51,7 +52,8 @@ const planTable = plan => {
     parts.push(element("p", `Left out as well, which saves ${nothing}: ${idle.filter(p => p.saves === nothing).map(p => p.part).join(", ")}.`));
   return [...parts, generic(kept.map(({ part, reason }) => ({ kept: part, reason })))];
 };
-// The weights of each method of a mixture, bounce by bounce: a picture with a pixel for each block.
+// A picture of the weights of a method of a mixture in one bounce, with a pixel for each block. `digits`: a digit for each block, 9
+// for a weight of 1.
 const weightMap = (digits, [width, height], bounce) => {
   const figure = element("figure"), canvas = element("canvas");
   Object.assign(canvas, { width, height });
@@ -71,7 +73,7 @@ const drawTitle = () => {
   document.title = $("title").textContent = [...new Set(all.map(sceneOf))].join(" and ") + (all.length > 1 ? ": " + all.map((_, r) => letter(r)).join(", ").replace(/, (.)$/, " and $1") : "");
   $("subtitle").textContent = all.map(s => runName(s) + summary(s)).join("; ");
 };
-// What the page is, in three sentences.
+// Explains in three sentences what the page shows.
 const drawAbout = () => {
   const [all, source, K, what, senders] = first.importance ? ["W", "We", "K*", "importance", "cameras"] : ["L", "Le", "K", "light", "lamps"];
   $("about").textContent = `${what[0].toUpperCase()}${what.slice(1)} is what ${senders} send out and what surfaces reflect of it, ${all} = ${source} + ${K} ${all}, and so ${all} = ${source} + ${K} ${source} + ${K}² ${source} + …: here each term is a picture. ` +
@@ -86,7 +88,7 @@ const drawWarnings = () => {
     ...lenient.map(s => `${runName(s)}this is not the scene as it is written: it was read with --lenient, and ${whole(s.run.scene.replaced.length)} thing${s.run.scene.replaced.length > 1 ? "s" : ""} in it ${s.run.scene.replaced.length > 1 ? "are" : "is"} replaced or left out`),
     ...all.flatMap(s => s.run.warnings.map(w => runName(s) + w.text + (w.count > 1 ? ` (${w.count} times)` : "")))
   ].map(text => element("p", text, "warning"));
-  // Two warnings leave room for the picture.
+  // At most two warnings are open, so that there is room for the picture.
   $("warnings").replaceChildren(...warnings.slice(0, 2), ...(warnings.length > 2 ? [folded(`${warnings.length - 2} more warning${warnings.length > 3 ? "s" : ""}`, ...warnings.slice(2))] : []));
 };
 const drawComparison = () => {
@@ -121,7 +123,7 @@ const drawRun = s => {
   for (const part of ["choice", "health", "bounces", "warnings", "ways"]) delete what[part];
   section(`The run${tag}`, ...parts, folded("All facts of run.json", generic(what)));
 };
-// All words. What was unfolded stays so.
+// Writes all texts and tables. Sections that the user has opened stay open.
 const drawWords = () => {
   const nameOf = fold => fold.firstChild.textContent.split(":")[0], folds = () => [...document.querySelectorAll("#warnings details, #tables details")];
   const open = new Set(folds().filter(fold => fold.open).map(nameOf));
