@@ -1,9 +1,9 @@
 "use strict";
-// What the study was, and its verdict.
+// The verdict of the study, its warnings, and the facts about it.
 
 const study = JSON.parse($("study").textContent);
 const megabytes = b => b > 0 ? number(b / 1e6) + " MB" : "–";
-// What is in a table as it is shown, to be saved.
+// The texts of a table on the page, row by row, for saving.
 const rowsOf = shown => [...shown.rows].map(row => [...row.cells].map(c => c.textContent));
 const savesOf = (shown, name, what, textual) => {
   const line = element("div", undefined, "line saves");
@@ -16,7 +16,7 @@ const sceneName = study.scene.file.split("/").pop();
 document.title = $("title").textContent = `${sceneName}: error against time`;
 $("verdict").textContent = study.verdict;
 if (!study.complete) $("warnings").append(element("p", "This study was cut off: it shows the repeats that were finished. --resume goes on with it.", "warning"));
-// More than a few fold away: the verdict stays in sight.
+// More than three warnings are folded, so that the verdict stays in sight.
 const warnings = study.warnings.map(w => element("p", w, "warning"));
 if (warnings.length > 3) {
   const all = element("details");

@@ -1,5 +1,6 @@
 "use strict";
-// Parts of the sum: the reference, and by method one run with the largest budget and the errors of all of them.
+// Parts of the picture of the sum: that of the reference and, for each method, that of one run with the largest budget, with the
+// errors of all its runs.
 
 const pictures = JSON.parse($("pictures").textContent), letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZ";
 const tone = { curve: "clip", exposure: pictures.exposure, decades: 3 };
@@ -24,7 +25,7 @@ const figure = (canvases, title, ...notes) => {
   made.append(...canvases, caption);
   return made;
 };
-// The budgets of the methods, which are equal, or what they took where that is something else.
+// The time and the samples that a method took with its largest budget.
 const took = name => {
   const points = sumOf(name).points, last = points[points.length - 1];
   return `${number(last.seconds.value)} s, ${number(last.samples, 9)} samples a pixel`;

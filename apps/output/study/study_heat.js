@@ -1,5 +1,6 @@
 "use strict";
-// Efficiency, a method a row and a bounce a column: 1/(MSE·T) at the largest budget, over that of the best in the column.
+// The table of efficiencies, with a row for each method and a column for each bounce: 1/(MSE·T), T the time of a run, at the
+// largest budget, divided by that of the best method of the column.
 
 const heatLow = 1e-4;
 const heat = study.methods.map(({ name }) => study.pictures.map(({ verdict, methods }) => {
@@ -7,7 +8,7 @@ const heat = study.methods.map(({ name }) => study.pictures.map(({ verdict, meth
   const other = verdict.others.find(o => o.method === name);
   if (!other) return { part: null, text: "–" };
   if (!other.known) return { part: null, text: methods.find(m => m.method === name).infinite_variance ? "∞ V" : "?" };
-  // The error of the best one is below what is seen: only a bound is known, or nothing.
+  // The error of the best method is too small to be measured, so that at most a bound on the quotient is known.
   if (other.times_as_fast === null) return other.seen && other.low ? { part: 1 / other.low, text: "< " + number(1 / other.low, 2) } : { part: null, text: "?" };
   const part = 1 / other.times_as_fast;
   return { part, text: (other.seen ? "" : "≈ ") + number(part, 2), title: `${verdict.best} is ${number(other.times_as_fast, 2)} times as fast (95%: ${number(other.low, 2)} to ${other.high === null ? "∞" : number(other.high, 2)})` };

@@ -1,5 +1,5 @@
 "use strict";
-// Error against work: a plot a bounce, and one of the sum.
+// Plots of error against work, one for each bounce and one for the sum.
 
 const shown = study.methods.map(() => true);
 
@@ -43,7 +43,7 @@ const datasetsOf = picture => {
   }
   return sets;
 };
-// With the legend, which the page has once for all plots.
+// A plot as SVG, with a legend of its own: the page has one legend for all plots.
 const drawing = chart => {
   const { legend } = chart.options.plugins;
   legend.display = true;

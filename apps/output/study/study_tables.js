@@ -1,5 +1,5 @@
 "use strict";
-// The tables, a ranking a bounce and what runs cost.
+// The tables: a ranking for each bounce, and the costs of the runs.
 
 $("ranking-note").textContent = "At the largest budget, by 1/(MSE·T), which counts bias; T is the time of a run with all its bounces and its set-up. " +
   "± are 95% intervals. bias² is signed: MSE − variance; bold where it is above 0 at 99.9%.";
