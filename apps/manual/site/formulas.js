@@ -1,4 +1,4 @@
 "use strict";
-// Formulas of the lessons; without KaTeX they stand as they are written.
+// Typesets the formulas of the lessons. Without KaTeX, the page shows their LaTeX source.
 for (const place of document.querySelectorAll(".tex"))
   katex.render(place.textContent, place, { displayMode: place.classList.contains("display"), throwOnError: false });

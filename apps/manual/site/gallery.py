@@ -1,4 +1,4 @@
-"""The gallery: all scenes by all bounces. What was rendered is kept until the scene, the version or the pages change."""
+"""The gallery: all scenes, bounce by bounce. Renders are kept until the scene, the version or the pages change."""
 
 import hashlib
 import html
@@ -9,14 +9,15 @@ import subprocess
 import sys
 from pathlib import Path
 
-# 112² pixels and bounces 0 to 8: pages of 0.3 to 1.5 MB. The same samples everywhere: the site has the same bits on every machine.
+# With 112² pixels and bounces 0 to 8 a page has 0.3 to 1.5 MB. The number of samples is fixed, and not the time, so that the site
+# has the same bits on every machine.
 OPTIONS = "-D res=112 -n 8 --spp 256".split()
 FILES = ["index.html", "strip-terms.png", "strip-sums.png"]
-BUDGET = 2_000_000  # bytes of an explorer
+BUDGET = 2_000_000  # the largest size of an explorer, in bytes
 
 
 def key_of(folder, version, root):
-    """What the pictures depend on, but for changes of the program under the same version: --fresh is for these."""
+    """A hash of all that the pictures depend on, except changes of the program that keep its version: after these, use --fresh."""
     key = hashlib.sha256(repr((version, OPTIONS, FILES)).encode())
     for path in sorted(p for p in [*folder.rglob("*"), *(root / "apps/output/pages").iterdir()] if p.is_file()):
         if path.suffix not in (".md", ".png", ".gif"):
@@ -25,7 +26,7 @@ def key_of(folder, version, root):
 
 
 def render_all(scenes, neumann, version, cache, root):
-    """Folders with the files of each scene, by its name."""
+    """Renders the scenes that are not in the cache. Returns the folder of the files of each scene by its name."""
     done = {}
     for number, folder in enumerate(scenes):
         kept, key = cache / folder.name, key_of(folder, version, root)
@@ -34,7 +35,7 @@ def render_all(scenes, neumann, version, cache, root):
             new = cache / (folder.name + ".new")
             shutil.rmtree(new, ignore_errors=True)
             new.mkdir(parents=True)
-            # By paths within the repository, for pages say which scene it was.
+            # The paths are relative to the repository, because pages contain the command.
             command = [neumann, "render", f"scenes/{folder.name}/{folder.name}.xml", *OPTIONS, "--files", "page,strips", "--quiet"]
             subprocess.run([*command, "-o", os.path.relpath(new, root)], check=True, cwd=root)
             for path in new.iterdir():
@@ -51,7 +52,7 @@ def render_all(scenes, neumann, version, cache, root):
 
 
 def strip(site, page, name, file, what):
-    """A strip that leads to the explorer; wider than a narrow screen, it can be moved."""
+    """HTML of a strip of pictures that links to the explorer. On a narrow screen the strip can be scrolled."""
     there = f"scenes/{name}/"
     return (
         f'<a class="strip" href="{site.relative(there + "explorer.html", page)}">'
@@ -80,7 +81,7 @@ def write_gallery(site, page, scenes, renders):
         out.append("<p>This site was made without renders: <code>./run site</code> makes one with pictures.</p>")
     for folder in scenes:
         name = folder.name
-        # Links of the paragraph are relative to the scene.
+        # The links of the paragraph are removed, because they are relative to the page of the scene.
         title, text = summary_of(site, next(p for p in site.pages if p.source == folder / "README.md"), folder)
         text = re.sub(r"<a [^>]*>|</a>", "", text)
         out.append(f'<section class="scene"><h2 id="{name}">{html.escape(title)}</h2>')

@@ -1,4 +1,4 @@
-"""Lessons as pages and as notebooks, with their outputs where neumann, nbclient and matplotlib can be imported."""
+"""Lessons as pages and as notebooks; they have outputs if neumann, nbclient and matplotlib can be imported."""
 
 import base64
 import hashlib
@@ -28,7 +28,7 @@ def converter(root):
 
 
 def run_all(root, version, cache):
-    """Notebooks with outputs, by the lesson's name; none where something is missing that runs them."""
+    """Returns notebooks with outputs by the lesson's name; an empty dictionary if a package that runs them is missing."""
     missing = [name for name in ("neumann", "nbclient", "nbformat", "ipykernel", "matplotlib", "scipy") if not importlib.util.find_spec(name)]
     if missing:
         print(f"Lessons come without outputs: this python3 has no {', '.join(missing)}.", file=sys.stderr)
@@ -36,8 +36,8 @@ def run_all(root, version, cache):
     import nbclient
     import nbformat
 
-    os.environ["PYDEVD_DISABLE_FILE_VALIDATION"] = "1"  # the kernel's debugger is not used, and need not say so
-    os.environ["NEUMANN_SLIDERS"] = "0"  # a page has no kernel that could move them
+    os.environ["PYDEVD_DISABLE_FILE_VALIDATION"] = "1"  # silences a warning about the kernel's debugger, which is not used
+    os.environ["NEUMANN_SLIDERS"] = "0"  # sliders need a kernel, which a page does not have
     done = {}
     for path in files(root):
         key = hashlib.sha256(version.encode())
@@ -52,14 +52,14 @@ def run_all(root, version, cache):
             cache.mkdir(parents=True, exist_ok=True)
             for old in cache.glob(f"{path.stem}.*.ipynb"):
                 old.unlink()
-            # Where the repository was is of no use elsewhere.
+            # The place of the repository on this machine is removed from all paths.
             kept.write_text(nbformat.writes(notebook).replace(str(root) + "/", ""), encoding="utf-8")
         done[path.stem] = json.loads(kept.read_text(encoding="utf-8"))
     return done
 
 
 def output_as_html(output, keep):
-    """keep(PNG) puts a figure beside the page, and returns its name."""
+    """Returns an output as HTML. keep(PNG) saves a figure beside the page, and returns its file name."""
     kind = output["output_type"]
     if kind == "stream":
         text = re.sub(r"[^\n]*\r(?!\n)", "", joined(output["text"]))
@@ -73,11 +73,11 @@ def output_as_html(output, keep):
 
 
 def keeper(site, page):
-    """A function that puts figures beside a page, as WebP without loss, which is two thirds of PNG."""
+    """Returns a function that saves a figure beside a page as lossless WebP, which has two thirds of the size of PNG."""
     count = 0
 
     def keep(png):
-        from PIL import Image  # matplotlib, which made the figure, needs it, too
+        from PIL import Image  # is installed where figures are, because matplotlib needs it
 
         nonlocal count
         count += 1

@@ -3,9 +3,9 @@
 
     ./run site [-o DIR] [--no-renders] [--no-lessons] [--fresh]
 
-A page is made of each text that is written anyway: Markdown, the pages of commands, the lessons. python3-markdown does it, and not
-MkDocs, which is in Debian as well: that brings Bootstrap, jQuery and a search that needs a server, takes one folder of Markdown, and
-would have to be taught commands, lessons, scenes and links out of its folder, which is most of what is here.
+The texts of the repository become pages: its Markdown files, the manual pages of commands, and the lessons. python3-markdown converts
+them. MkDocs, which is in Debian as well, is not used: MkDocs brings Bootstrap, jQuery and a search that needs a server, and reads one
+folder of Markdown. Commands, lessons, scenes and links out of that folder would need extensions as long as this program.
 """
 
 import argparse
@@ -22,10 +22,10 @@ from site_pages import Site
 
 ROOT = Path(__file__).resolve().parents[3]
 
-# In the order of README.md; pages that are not named here follow.
+# The pages in the order of README.md. Pages that are not named here follow.
 MANUAL = """methods measurements limits explorer error-bars health matrices machines python speed scenes collada gltf blender pbrt tungsten
 counting building""".split()
-# In the order of `render --help`.
+# The methods in the order of `render --help`.
 METHODS = """auto walk guided corrected surface light bidirectional mixed photon cache metropolis classic pointwise matrix gather
 patches""".split()
 TUTORIALS = "my-first-scene lecture-figure wrong-bounce paper-figure room-from-blender k-in-scipy".split()
@@ -51,7 +51,7 @@ def main():
     if arguments.fresh:
         shutil.rmtree(cache, ignore_errors=True)
 
-    # All of it first appears beside the folder, and takes its place in the end.
+    # The site is first made in a folder beside the output folder, which it replaces at the end.
     if arguments.o.exists() and any(arguments.o.iterdir()) and not (arguments.o / "style.css").is_file():
         sys.exit(f"{arguments.o} holds something that is no site: expected an empty folder, or that of an earlier ./run site")
     made = arguments.o.with_name(arguments.o.name + ".unfinished")

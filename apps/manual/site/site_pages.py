@@ -1,4 +1,4 @@
-"""Pages of the site: texts to HTML, links between them, and the navigation."""
+"""The pages of the site: converts texts to HTML, resolves the links between them, and makes the navigation."""
 
 import html
 import os
@@ -27,7 +27,7 @@ class Page:
 
 
 def anchor(heading, separator="-"):
-    """The name of a heading, as where this repository is read as Markdown."""
+    """The anchor of a heading, the same as that of websites that show the Markdown of this repository."""
     return re.sub(r"[^\w\- ]", "", heading.strip().lower()).replace(" ", separator)
 
 
@@ -43,13 +43,11 @@ class Site:
             title = re.search(r"^# (.+)$", source.read_text(encoding="utf-8"), re.MULTILINE)[1].replace("`", "")
         self.pages.append(Page(section, source, output, title, label or title))
 
-    # Links.
-
     def relative(self, target, page):
         return os.path.relpath(target, os.path.dirname(page.output) or ".").replace(os.sep, "/")
 
     def link(self, address, page):
-        """Where a link of a source leads in the site: to the page of a text, or to a copy of the file."""
+        """The address in the site of a source's link: that of the page made of the file it names, or of a copy of the file."""
         if re.match(r"[a-z]+:|#", address):
             return address
         path, _, place = address.partition("#")
@@ -64,7 +62,7 @@ class Site:
         return self.relative(self.copy(target), page)
 
     def copy(self, source):
-        """A copy of a file of the repository in the folder files; text as .txt, which every browser shows."""
+        """Copies a file of the repository into the folder files, texts with the ending .txt, which every browser shows."""
         name = f"files/{source.relative_to(self.root)}"
         if source.suffix not in PICTURES:
             name += ".txt"
@@ -81,10 +79,8 @@ class Site:
             text,
         )
 
-    # Texts.
-
     def from_markdown(self, text, page, formulas=False):
-        """(HTML, its contents as HTML)."""
+        """Returns the body and its table of contents, both as HTML. With `formulas`, $…$ and $$…$$ are LaTeX."""
         kept = []
 
         def keep(match):
@@ -113,7 +109,7 @@ class Site:
         self.write(page, body, toc)
 
     def write_command(self, page):
-        """The page of a command: of the program, with its options; without the program the text alone."""
+        """Writes the page of a command as the program prints it, with its options; without the program, from the text alone."""
         if self.neumann:
             topic = [] if page.title == "neumann" else [page.title]
             text = subprocess.run([self.neumann, "help", *topic], check=True, capture_output=True, text=True).stdout
@@ -122,8 +118,6 @@ class Site:
             text = page.source.read_text(encoding="utf-8")
         heading = page.title if page.title == "neumann" else f"neumann {page.title}"
         self.write(page, f"<h1>{heading}</h1>\n" + command_text(text))
-
-    # The frame of all pages.
 
     def navigation(self, page):
         out = []
@@ -191,7 +185,7 @@ class Site:
 
 
 def command_text(text):
-    """A manual page as HTML: headings in capitals, paragraphs, items with their text indented."""
+    """Converts a manual page to HTML: its headings are in capitals, and the texts of its items are indented."""
     out, paragraph, items = [], [], []
 
     def flush():
