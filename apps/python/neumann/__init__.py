@@ -6,15 +6,15 @@
     series.terms[1]                      # direct light: (height, width, 3), row 0 on top, W·m⁻²·sr⁻¹
     series.sums[5], series.sums_stderr[5]
     series[2], series[1:4]               # bounces, as a notebook shows them
-    series.save("out/cornell-box")       # what ./run render writes
+    series.save("out/cornell-box")       # the files that ./run render writes
 
     T, R, Le = scene.matrices()          # scipy.sparse, scipy.sparse, numpy
     K = R @ T
     neumann.series(K, Le).verdict        # "converged"
     neumann.solve(K, Le, "gmres").applications
 
-Bounce i is the power of K: bounce 0 is emission seen directly, bounce 1 direct light. T carries light along straight lines to the next
-surface, R scatters it there; operators/NOTATION.md is the dictionary.
+Bounce i is the power of K: bounce 0 is emission seen directly, bounce 1 is direct light. T carries light along straight lines to
+the next surface, and R scatters the light there; operators/NOTATION.md defines all symbols.
 """
 
 from ._blame import Blame, blame

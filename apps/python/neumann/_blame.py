@@ -1,4 +1,4 @@
-"""Which bounce of another renderer is wrong, and in what way."""
+"""Finds which bounce of another renderer is wrong, and in what way."""
 
 from typing import Any, List, Mapping, Optional, Sequence, Union
 
@@ -17,20 +17,21 @@ MAPS = ("theirs", "ours", "difference", "difference_stderr", "z")
 
 
 class Blame:
-    """What ``blame()`` finds.
+    """The result of ``blame()``.
 
-    verdict: "right", "wrong", or "unclear" where pictures are further apart than chance explains, but few samples or random numbers that
-    pixels share may be why. right: whether it is "right". sentences: the verdict in words. counting: how depths were counted; counting_by_the_data: what the
-    data say, where that is something else. noise_known: whether a second set of pictures told their noise. samples: of ours, a pixel.
+    verdict: "right", "wrong", or "unclear" where the pictures differ by more than chance explains, but the reason may be that
+    samples are few, or that pixels share random numbers. right: whether the verdict is "right". sentences: the verdict in words.
+    counting: how depths were counted; counting_by_the_data: the counting that the pictures suggest, if it differs. noise_known:
+    whether a second set of pictures gave their noise. samples: of our pictures, per pixel.
 
-    terms: a Report for each bounce, or for bounces that one picture more holds together: first and last bounce; ratio of their mean to ours
-    and ratio_stderr; p, the probability of such a difference by chance; differs; unclear; worst, the blocks of pixels that differ most, each with a
-    path of ours through it; and as arrays (height, width, 3), float32, W·m⁻²·sr⁻¹: theirs, ours, difference = theirs − ours, its
-    standard errors difference_stderr, and z = difference / difference_stderr.
+    terms: a Report for each bounce, or for bounces that are only known together, by the difference of two pictures: first and last,
+    bounces; ratio of their mean to ours and ratio_stderr; p, the probability of such a difference by chance; differs; unclear;
+    worst, the blocks of pixels that differ most, each with a path of ours through it; and as arrays (height, width, 3), float32,
+    W·m⁻²·sr⁻¹: theirs, ours, difference = theirs − ours, its standard error difference_stderr, and z = difference /
+    difference_stderr.
 
-    suspects: what may be wrong, likeliest first: name, words, misfit (−2 log of the likelihood). shapes: share of the squared difference of
-    the first wrong term, and ratio of their light to ours, on what the camera sees.
-    """
+    suspects: possible mistakes, the likeliest first: name, words, misfit (−2 log of the likelihood). shapes: for each shape that
+    the camera sees, its share of the squared difference of the first wrong term, and the ratio of their light on it to ours."""
 
     def __init__(self, json: str, maps: List[Any]) -> None:
         data = _report.from_json(json)
@@ -84,15 +85,15 @@ def blame(
     threads: Optional[int] = None,
     quiet: bool = False,
 ) -> Blame:
-    """Compares pictures of another renderer with our terms of the scene: as ``neumann blame``, on arrays.
+    """Compares pictures of another renderer with our terms of the scene, as ``neumann blame`` does, but on arrays.
 
-    pictures: arrays (height, width, 3), linear radiance, row 0 on top, by depth limit, {1: …, 2: …}, or a list that begins with 0. The
-    film takes their size. again: the same with another seed, which tells their noise. counts: how depths are counted, "mitsuba" (depth d
-    holds bounces 0 to d − 1), "pbrt" (to d), "cycles" (to d + 1), or "bounces" (bounce d alone); by the data without it. time: seconds for
-    our own pictures, 20 without it, or spp: samples a pixel. seed; threads: all without it. quiet: no progress.
+    pictures: arrays (height, width, 3), linear radiance, row 0 on top, by depth limit, {1: …, 2: …}, or a list that begins with
+    depth 0. Our pictures take their size. again: pictures with another seed, from which their noise is known. counts: how depths
+    are counted: "mitsuba" (depth d holds bounces 0 to d − 1), "pbrt" (to d), "cycles" (to d + 1), or "bounces" (bounce d alone); by
+    default the counting that fits the pictures. time: seconds for our own pictures, default 20; or spp: their samples a pixel.
+    seed: of our pictures. threads: default all. quiet: no progress.
 
-    Raises InputError for pictures that do not fit together or the scene.
-    """
+    Raises InputError if the pictures do not fit together, or do not fit the scene."""
     keywords = {"counts": counts, "time": time, "spp": spp, "seed": seed, "threads": threads}
     job = _neumann.blame(scene._scene, _numbered(pictures), {} if again is None else _numbered(again), options(keywords))
     found: Blame = run(job, quiet, lambda made: Blame(*made))

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     import xarray
 
 
-_shown_at_most = 12  # pictures in a row: the others are in the arrays
+_shown_at_most = 12  # pictures in a row of a notebook
 
 
 def _mean(figures: Any) -> str:
@@ -31,13 +31,13 @@ def _mean(figures: Any) -> str:
 
 
 def _exposure_of(series: "BounceSeries") -> float:
-    """For all pictures of a series, so that their brightness can be compared."""
+    """Returns the exposure for all pictures of a series, so that their brightness can be compared."""
     importance = series.run.quantity.name.startswith("importance")
     return _neumann.exposure(series.sums[-1], series.sums[-1] if importance else series.terms[0])
 
 
 def _strip(series: "BounceSeries") -> str:
-    """HTML of a series."""
+    """Returns HTML that shows the bounces and sums of a series."""
     run, shown = series.run, min(series.bounces + 1, _shown_at_most)
     exposure = _exposure_of(series)
     terms = [(series.terms[i], f"bounce {i}", _mean(run.bounces[i])) for i in range(shown)]
@@ -50,20 +50,20 @@ def _strip(series: "BounceSeries") -> str:
 
 
 def _of_bounces(bounces: List["Bounce"], exposure: float, height: int) -> str:
-    """HTML of some of its bounces."""
+    """Returns HTML that shows some bounces."""
     figures = [(b.value, f"bounce {b.bounce}", f"mean {b.mean:.4g}") for b in bounces]
     return row(figures, exposure, height)
 
 
 class Way(NamedTuple):
-    """One way (s, t) to make a bounce: s vertices from the light, t from the camera."""
+    """One way (s, t) to make a bounce: with s vertices from the light and t from the camera."""
 
     s: int
     t: int
     weighted: Picture
-    """What it brings to the picture, with its weight; (height, width, 3)."""
+    """The part of the picture that this way makes, with its weight; (height, width, 3)."""
     unweighted: Picture
-    """What it would make by itself; (height, width, 3)."""
+    """The estimate of the bounce from this way alone; (height, width, 3)."""
 
     def __repr__(self) -> str:
         return f"<Way s={self.s}, t={self.t}: mean {self.weighted.mean():.4g}, {self.unweighted.mean():.4g} by itself>"
@@ -73,11 +73,10 @@ class Way(NamedTuple):
 
 
 class Bounce:
-    """K^i Le as the camera sees it: ``series[i]``. NumPy takes it as its value.
+    """K^i Le as the camera sees it: ``series[i]``. NumPy takes a Bounce as its value.
 
-    bounce: i. value: (height, width, 3), with stderr, spread and discretisation of the same shape, as of the series; None where they are
-    not known. mean: over pixels and channels.
-    """
+    bounce: i. value: (height, width, 3), with stderr, spread and discretisation of the same shape, as in the series; None if they
+    are not known. mean: over pixels and channels."""
 
     def __init__(self, bounce: int, pictures: Pictures, series: "BounceSeries") -> None:
         self.bounce = bounce
@@ -89,7 +88,7 @@ class Bounce:
         return np.array(self.value, dtype=dtype) if copy else np.asarray(self.value, dtype=dtype)
 
     def show(self) -> None:
-        """Shows it, in a notebook or in the browser."""
+        """Shows the bounce in a notebook, or in the browser."""
         picture = _of_bounces([self], _exposure_of(self._series), large)
         show(picture, picture)
 
@@ -112,22 +111,23 @@ class Bounces(List[Bounce]):
 
 
 class BounceSeries:
-    """The terms K^i Le of a scene as its camera sees them, bounces 0 … N, with their sums and what is left out.
+    """The terms K^i Le of a scene as its camera sees them, bounces 0 … N, with their sums and the rest, which they leave out.
 
-    Pictures are float32, scene-linear RGB, as in the files; row 0 is on top. Radiance in W·m⁻²·sr⁻¹, importance in m⁻²·sr⁻¹.
-    A standard error is that of a pixel and channel; mean ± t · stderr is a 95% interval, with Student's t of
-    ``run.samples.degrees_of_freedom``. inf: unknown, after a single replicate. Where the mean is 0 and the standard error is not, no
-    sample met anything, and t · stderr is an upper bound; 0 with 0 is known to be dark. A pixel's standard error is not below what few
-    samples leave open, however well they agree; the spread is without that, and is for means over pixels.
+    Pictures are float32, scene-linear RGB, as in the files; row 0 is on top. Radiance is in W·m⁻²·sr⁻¹, importance in m⁻²·sr⁻¹. A
+    standard error is that of a pixel and channel; mean ± t · stderr is a 95% interval, with Student's t of
+    ``run.samples.degrees_of_freedom``. A standard error of inf is unknown, as after a single replicate. Where the mean is 0 and the
+    standard error is not, no sample met any light, and t · stderr is an upper bound; where both are 0, the pixel is known to be
+    dark. A pixel's stderr includes what few samples leave open, however well they agree; its spread does not, and is the one to use
+    for means over pixels.
 
-    ``series[2]`` is a Bounce, ``series[1:4]`` are some of them, and ``a + b`` is the render of the samples of both, which have to be of the
-    same scene, method and bounces, and of different seeds. In a notebook it shows its bounces and sums in two rows, at one exposure.
+    ``series[2]`` is a Bounce, ``series[1:4]`` are some of them. ``a + b`` is the render of the samples of both, which must have the
+    same scene, method and bounces, and different seeds. A notebook shows a series as two rows, bounces and sums, at one exposure.
     """
 
     def __init__(self, source: Any, title: str) -> None:
         self._source: Source = source
         self.title = title
-        """The scene, or the folder."""
+        """The name of the scene or of the folder."""
         self.bounces: int = source.bounces
         """N, the last bounce with a picture of its own."""
 
@@ -161,17 +161,17 @@ class BounceSeries:
 
     @property
     def terms_stderr(self) -> Picture:
-        """Their standard errors, (N + 1, height, width, 3)."""
+        """The standard errors of the terms, (N + 1, height, width, 3)."""
         return self._terms[1]
 
     @property
     def terms_spread(self) -> Picture:
-        """The standard errors by the samples' spread alone, for means over pixels, (N + 1, height, width, 3)."""
+        """Standard errors of the terms from the samples' spread alone, for means over pixels, (N + 1, height, width, 3)."""
         return self._terms[3]
 
     @property
     def terms_discretisation(self) -> Optional[Picture]:
-        """What patches, photon maps or caches get wrong, as it is estimated, (N + 1, height, width, 3); None where there are none."""
+        """The estimated error of terms due to patches, photon maps or caches, (N + 1, height, width, 3); None without these."""
         return self._terms[2]
 
     @property
@@ -181,85 +181,87 @@ class BounceSeries:
 
     @property
     def sums_stderr(self) -> Picture:
-        """Their standard errors, (N + 1, height, width, 3). Not those of the terms added up: a pixel's bounces share walks."""
+        """The standard errors of the sums, (N + 1, height, width, 3); not the sums of those of terms, which share walks."""
         return self._sums[1]
 
     @property
     def sums_spread(self) -> Picture:
-        """The standard errors by the samples' spread alone, for means over pixels, (N + 1, height, width, 3)."""
+        """Standard errors of the sums from the samples' spread alone, for means over pixels, (N + 1, height, width, 3)."""
         return self._sums[3]
 
     @property
     def sums_discretisation(self) -> Optional[Picture]:
-        """The same of the sums, (N + 1, height, width, 3)."""
+        """The estimated error of sums due to patches, photon maps or caches, (N + 1, height, width, 3); None without these."""
         return self._sums[2]
 
     @property
     def rest(self) -> Optional[Picture]:
-        """Σ_{k>N} K^k Le, what the pictures leave out, (height, width, 3); None where it was not measured."""
+        """Σ_{k>N} K^k Le, which the pictures leave out, (height, width, 3); None if it was not measured."""
         return self._rest[0]
 
     @property
     def rest_stderr(self) -> Optional[Picture]:
-        """Its standard error, (height, width, 3)."""
+        """The standard error of the rest, (height, width, 3)."""
         return self._rest[1]
 
     @property
     def rest_spread(self) -> Optional[Picture]:
-        """Its standard error by the samples' spread alone, for means over pixels, (height, width, 3)."""
+        """The standard error of the rest from the samples' spread alone, for means over pixels, (height, width, 3)."""
         return self._rest[3]
 
     @cached_property
     def table(self) -> NDArray[Any]:
-        """series.csv as a structured array, a row a bounce: ``table["mean"]``, ``"mean_stderr"``, ``"ratio"``, ``"bound"`` (on what
-        follows, in the maximum norm; inf: there is none), ``"rays"``, ``"seconds"``, ``"interval95"`` (half of it)."""
+        """series.csv as a structured array with a row for each bounce: ``table["mean"]``, ``"mean_stderr"``, ``"ratio"``,
+        ``"bound"`` (on the sum of later bounces, in the maximum norm; inf: there is no bound), ``"rays"``, ``"seconds"``,
+        ``"interval95"`` (half of it)."""
         return _report.table(self._source.table(), counts=("bounce", "rays"))
 
     @cached_property
     def convergence(self) -> NDArray[Any]:
-        """convergence.csv as a structured array, a row a doubling of the samples: ``"samples"``, ``"seconds"``, ``"rays"``,
-        ``"relative_stderr_000"`` … and, given a reference, ``"relative_error_000"`` …"""
+        """convergence.csv as a structured array with a row for each doubling of the samples: ``"samples"``, ``"seconds"``,
+        ``"rays"``, ``"relative_stderr_000"`` … and, given a reference, ``"relative_error_000"`` …"""
         return _report.table(self._source.convergence(), counts=("samples", "rays"))
 
     @cached_property
     def run(self) -> Report:
-        """run.json: all that is needed to repeat the run and to judge it; ``run.health``, ``run.plan``, ``run.samples`` …"""
+        """run.json, with all that is needed to repeat and to judge the run: ``run.health``, ``run.plan``, ``run.samples`` …"""
         return _report.from_json(self._source.run())
 
     @property
     def warnings(self) -> List[str]:
-        """What render() warned of."""
+        """The warnings of render()."""
         return self._source.warnings()
 
     @cached_property
     def ways(self) -> Optional[List[Way]]:
-        """With ``ways=i`` of bidirectional: every way to make bounce i."""
+        """All ways to make bounce i, if method="bidirectional" was given ``ways=i``; otherwise None."""
         found = self._source.ways()
         return None if found is None else [Way(*way) for way in found]
 
     def save(self, folder: Union[str, "PathLike[str]"], files: Optional[Sequence[str]] = None) -> None:
-        """Writes what ``neumann render -o folder`` writes: EXR files, tables, run.json, contact sheet, and the explorer, index.html.
-        files: those of the groups of ``--files`` that are written, such as ("pictures", "tables"); default all.
+        """Writes the files of ``neumann render -o folder``: EXR files, tables, run.json, contact sheet, and the explorer,
+        index.html. files: the groups of ``--files`` that are written, such as ("pictures", "tables"); default all.
 
-        Raises InputError where nothing can be written there, and RunError where a disk is full. Whole or not at all.
-        """
+        The folder is written as a whole or not at all. Raises InputError if the folder cannot be written, and RunError if a disk is
+        full."""
         self._source.save(fsencode(folder), files)
 
     def show(self, bounce: Optional[int] = None) -> None:
-        """Shows a bounce, or all of them with their sums: below the cell of a notebook, elsewhere in the browser."""
+        """Shows a bounce, or all bounces and sums: below the cell of a notebook, elsewhere in the browser."""
         if bounce is not None:
             self[bounce].show()
         else:
             show(_strip(self), _strip(self))
 
     def page(self, height: int = 800) -> None:
-        """Shows the explorer, the index.html of ``save()``: below the cell of a notebook, so many pixels high; elsewhere in the browser."""
+        """Shows the explorer, the index.html of ``save()``: below the cell of a notebook, ``height`` pixels high, or in the
+        browser."""
         page = self._source.page()
         show(frame(page, height), page)
 
     def to_xarray(self) -> "xarray.Dataset":
-        """An xarray.Dataset with ``term``, ``sum`` (bounce, y, x, channel) and ``rest`` (y, x, channel), each with its _stderr, _spread and
-        _discretisation where there are any."""
+        """Returns an xarray.Dataset with ``term``, ``sum`` (bounce, y, x, channel) and ``rest`` (y, x, channel), each with its
+        _stderr, _spread and _discretisation if there are any."""
         import xarray
 
         axes = ("bounce", "y", "x", "channel")
@@ -274,13 +276,13 @@ class BounceSeries:
         return xarray.Dataset(arrays, coordinates, {"scene": self.title, "quantity": self.run.quantity.name, "units": self.run.quantity.unit})
 
     def to_pandas(self) -> "pandas.DataFrame":
-        """``table`` as a pandas.DataFrame, a row a bounce."""
+        """Returns ``table`` as a pandas.DataFrame with a row for each bounce."""
         import pandas
 
         return pandas.DataFrame(self.table).set_index("bounce")
 
     def __len__(self) -> int:
-        """How many bounces have a picture of their own, bounce 0 included."""
+        """The number of bounces with a picture of their own, including bounce 0."""
         return self.bounces + 1
 
     @overload
@@ -288,7 +290,7 @@ class BounceSeries:
     @overload
     def __getitem__(self, which: slice) -> Bounces: ...
     def __getitem__(self, which: Union[int, slice]) -> Union[Bounce, Bounces]:
-        """Bounce i, counted from the last where i is negative, or those of a slice."""
+        """Returns bounce i, counted from the last if i is negative, or the bounces of a slice."""
         if isinstance(which, slice):
             return Bounces(self[i] for i in range(*which.indices(len(self))))
         i = which + len(self) if which < 0 else which
@@ -297,7 +299,7 @@ class BounceSeries:
         return Bounce(i, self._source.picture("bounce", i), self)
 
     def __add__(self, other: "BounceSeries") -> "BounceSeries":
-        """The render of all samples of both, as ``neumann merge`` puts them together. Raises InputError where they do not fit."""
+        """Returns the render of all samples of both, as ``neumann merge`` does. Raises InputError if they do not fit together."""
         if not isinstance(other, BounceSeries):
             return NotImplemented
         renderings = []
@@ -319,5 +321,5 @@ class BounceSeries:
 
 
 def read(folder: Union[str, "PathLike[str]"]) -> BounceSeries:
-    """The series in the folder of a finished render. Raises InputError where there is none."""
+    """Returns the series in the folder of a finished render. Raises InputError if there is none."""
     return BounceSeries(Folder(Path(folder)), fspath(folder))

@@ -1,4 +1,4 @@
-"""The walk of a Markov chain among the paths of one bounce."""
+"""A Markov chain among the paths of one bounce."""
 
 from typing import Any, Dict
 
@@ -9,15 +9,14 @@ from ._rows import Rows
 
 
 class Chain(Rows):
-    """States of a chain, one after the other: ``scene.chain(bounce)``.
+    """The states of a Markov chain, one after the other: ``scene.chain(bounce)``.
 
-    A state is a path from both ends: s vertices from the light, bounce + 2 − s from the camera, drawn from random numbers. The chain
+    A state is a path from both ends: s vertices from the light, bounce + 2 − s from the camera, made from random numbers. The chain
     visits states in proportion to their size.
 
-    position: (n, 2), x and y on the film, pixel (0, 0) from 0 to 1. s: (n,). size: (n,), the mean channel of what the path brings, as a
-    pixel's radiance times the number of pixels. accepted: (n,), False where the step was refused and the state is the one before once
-    more. large: (n,), whether the step drew all numbers anew, or moved them a little.
-    """
+    position: (n, 2), x and y on the film; pixel (0, 0) is from 0 to 1. s: (n,). size: (n,), the mean over channels of the path's
+    contribution to a pixel's radiance, times the number of pixels. accepted: (n,), False where the step was rejected and the state
+    is the previous one again. large: (n,), True where the step drew all random numbers anew, False where it moved them a little."""
 
     position: NDArray[np.float64]
     s: NDArray[np.int32]

@@ -1,4 +1,4 @@
-"""How far pictures and series are from others."""
+"""Compares pictures and series with others."""
 
 from os import PathLike, fsencode
 from pathlib import Path
@@ -15,7 +15,7 @@ from ._sources import Pictures
 
 
 def _picture(x: "Comparable") -> Optional[Pictures]:
-    """A picture with its errors, from memory or a file; None of a series."""
+    """Returns a picture with its errors, from memory or a file; None for a series."""
     if isinstance(x, (str, PathLike)):
         return None if Path(x).is_dir() else _neumann.read(fsencode(x))
     if isinstance(x, Bounce):
@@ -28,11 +28,10 @@ Comparable = Union[BounceSeries, AnyPicture]
 
 
 def flip(a: AnyPicture, b: AnyPicture) -> NDArray[np.float32]:
-    """HDR-FLIP of a picture against the reference b (Andersson et al. 2021): how different they look to someone who alternates between
-    them on a 4K monitor, in each pixel from 0 to 1, (height, width). Its mean is the FLIP of ``neumann compare --flip``.
+    """HDR-FLIP of a picture a against the reference b (Andersson et al. 2021): how different they look to somebody who alternates
+    between them on a 4K monitor, in each pixel from 0 to 1, (height, width). Its mean is the FLIP of ``neumann compare --flip``.
 
-    Each is a bounce, an array (height, width, 3) or a file, taken as linear. Raises InputError where sizes differ.
-    """
+    Each is a bounce, an array (height, width, 3) or a file, taken as linear. Raises InputError if their sizes differ."""
     pictures = [_picture(x) for x in (a, b)]
     if not all(pictures):
         raise _neumann.InputError("a series; FLIP is of two pictures, as series[2] is one")
@@ -40,17 +39,17 @@ def flip(a: AnyPicture, b: AnyPicture) -> NDArray[np.float32]:
 
 
 def compare(a: Comparable, b: Comparable, *, flip: bool = False) -> Any:
-    """How far a is from the reference b, as ``neumann compare``.
+    """Returns how far a is from the reference b, as ``neumann compare`` does.
 
-    Two pictures, each a bounce, an array (height, width, 3) or a file, taken as linear, give a Report: rmse, rel_mse, mape, smape, max_error, mean,
-    reference_mean, mean_difference and mean_difference_interval95, half of the latter's interval: None where a file does not hold it, and
-    an array counts as exact. Means run over pixels and channels, fractions and not percent, with ε = 0.01:
+    Two pictures, each a bounce, an array (height, width, 3) or a file, taken as linear, give a Report: rmse, rel_mse, mape, smape,
+    max_error, mean, reference_mean, mean_difference and mean_difference_interval95, half of the interval of the latter: None if a
+    file does not hold it; an array counts as exact. Means are over pixels and channels, fractions and not percent, with ε = 0.01:
     RMSE² (a−b)², relMSE (a−b)²/(b²+ε·mean(b)²), MAPE |a−b|/(|b|+ε·mean|b|), SMAPE 2|a−b|/(|a|+|b|+ε·(mean|a|+mean|b|)).
 
-    Two series, or folders of renders, give a structured array: a row for each picture that both have ("bounce_000" …, "sum_000" …,
-    "rest" where they end at the same bounce). ``rmse_by_noise`` is the RMSE that standard errors alone explain. With flip, ``flip`` is the
-    mean of ``neumann.flip``, which takes about a second for a picture of 512 × 512 pixels. Raises InputError where sizes differ.
-    """
+    Two series, or folders of renders, give a structured array with a row for each picture that both have ("bounce_000" …,
+    "sum_000" …, and "rest" if they end at the same bounce). ``rmse_by_noise`` is the RMSE that standard errors alone explain. With
+    flip, ``flip`` is the mean of ``neumann.flip``, which takes about a second for a picture of 512 × 512 pixels. Raises InputError
+    if sizes differ."""
 
     def errors_of(x: Any, y: Any) -> Any:
         figures = _neumann.compare(x[0], y[0], x[3], y[3], x[4], y[4])

@@ -1,4 +1,4 @@
-"""Where a series' pictures come from: memory, or the folder of a render."""
+"""Where the pictures of a series come from: memory, or the folder of a render."""
 
 from os import fsencode
 from pathlib import Path
@@ -13,7 +13,7 @@ from ._progress import run as run_job
 
 Picture = NDArray[np.float32]
 _Means = Optional[Tuple[Tuple[float, float, float], ...]]
-# Mean, stderr, discretisation, spread, means.
+# The mean, stderr, discretisation and spread of each pixel, and means over pixels.
 Pictures = Tuple[Picture, Optional[Picture], Optional[Picture], Optional[Picture], _Means]
 
 

@@ -1,4 +1,4 @@
-"""Methods side by side: error against time, bounce by bounce."""
+"""A comparison of methods: error against time, bounce by bounce."""
 
 from typing import Any, List, Union
 
@@ -10,14 +10,12 @@ from ._display import as_table
 from ._report import Report
 
 
-
 class Study:
-    """What ``neumann study`` finds.
+    """The result of ``neumann study``.
 
     data: study.json as a Report: reference, budgets, and for each picture the methods, ranked, with all their points.
-    table: study.csv as a structured array, a row for every method, budget, repeat and bounce: ``"mse"``, ``"rel_mse"``, ``"rays"`` …
-    warnings: what the command would print. complete: not ended by Ctrl-C.
-    """
+    table: study.csv as a structured array, a row for each method, budget, repeat and bounce: ``"mse"``, ``"rel_mse"``, ``"rays"`` …
+    warnings: those of the command. complete: whether the study was not ended by Ctrl-C."""
 
     def __init__(self, json: str, csv: str, warnings: List[str], complete: bool) -> None:
         self.data: Report = _report.from_json(json)
@@ -27,7 +25,7 @@ class Study:
 
     @property
     def methods(self) -> List[str]:
-        """As they were given."""
+        """The methods as they were given."""
         return [m.name for m in self.data.methods]
 
     def _of(self, method: str, bounce: Union[int, str]) -> Report:
@@ -39,11 +37,10 @@ class Study:
         raise KeyError(f"no method {method!r} with a bounce {bounce!r} in this study")
 
     def curve(self, method: str, bounce: Union[int, str] = "sum") -> NDArray[Any]:
-        """Error against time of a method in a bounce, or in the "sum": a structured array with a row a budget.
+        """Returns error against time of a method in a bounce, or in the "sum", as a structured array with a row for each budget.
 
         samples a pixel, seconds and rays of a run, rmse and its standard error rmse_stderr, rel_mse, variance, bias_squared,
-        efficiency 1/(variance · seconds), efficiency_with_bias 1/(mse · seconds). Radiance in W·m⁻²·sr⁻¹.
-        """
+        efficiency 1/(variance · seconds), efficiency_with_bias 1/(mse · seconds). Radiance is in W·m⁻²·sr⁻¹."""
         rows = []
         for p in self._of(method, bounce).points:
             row = [p.samples, p.seconds.value, p.rays, p.rmse.value, p.rmse.standard_error, p.rel_mse.value, p.variance.value]
@@ -53,7 +50,7 @@ class Study:
         return _report.rows(np.array(rows, dtype=float), [*names, "efficiency_with_bias"])
 
     def slope(self, method: str, bounce: Union[int, str] = "sum") -> Any:
-        """d log RMSE / d log seconds: a Report of value and interval95, half of its 95% interval; None where there are too few budgets."""
+        """Returns d log RMSE / d log seconds: a Report of value and interval95, half of its 95% interval; None with too few budgets."""
         return self._of(method, bounce).slope
 
     def __repr__(self) -> str:

@@ -1,4 +1,4 @@
-"""The Neumann series backwards: pictures of a scene under separate lights, taken apart into bounces."""
+"""The Neumann series backwards: separates pictures of a scene under single lights into bounces."""
 
 from typing import Any, List, Optional, Tuple
 
@@ -15,21 +15,20 @@ Lights = Tuple[int, int]
 
 
 class Unbounced:
-    """What ``unbounce()`` finds.
+    """The result of ``unbounce()``.
 
-    terms: Cⁿ L for n = 1, 2, …: arrays (height, width, 3), float32; terms[0] has bounced once. terms_stderr: their standard errors, None
-    where those of the pictures are not known. terms_discretisation: how far they are off because regions are large, estimated from regions
-    four times as large; None without ``lights``. rest: the picture less its terms.
+    terms: Cⁿ L for n = 1, 2, …: arrays (height, width, 3), float32; the light of terms[0] has bounced once. terms_stderr: their
+    standard errors, None if those of the pictures are not known. terms_discretisation: their errors because regions are large,
+    estimated from regions four times as large; None without ``lights``. rest: the picture minus its terms.
 
-    bounces: for each term a Report of backward (mean, stderr, discretisation), and with forward pictures forward, difference (mean, stderr,
-    in_errors) and regions (relative_difference, by_noise), and of rendered pictures by_way_of_unseen (mean, stderr): what light makes of the
-    difference that comes by way of what is not seen. channels: for r, g and b condition, smallest_singular_value, noise, singular,
-    regularisation, and inverse_series_radius, below 1 where the series of T⁻¹ converges. doubts: kind and words, why it
-    is not to be trusted.
+    bounces: for each term a Report of backward (mean, stderr, discretisation); with forward pictures also forward, difference
+    (mean, stderr, in_errors) and regions (relative_difference, by_noise); with rendered pictures also by_way_of_unseen
+    (mean, stderr): the part of the difference due to light that comes by way of surfaces that are not seen. channels: for r, g and
+    b condition, smallest_singular_value, noise, singular, regularisation, and inverse_series_radius, below 1 if the series of T⁻¹
+    converges. doubts: reasons not to trust the result, each with kind and words.
 
-    T, inverse, direct, A: for each channel the matrices of the regions: T (regions × lights), T⁻¹, T¹, and A = (T − T¹) T⁻¹ with errors A_stderr;
-    lights: which of the lights are in them.
-    """
+    T, inverse, direct, A: for each channel the matrices of the regions: T (regions × lights), T⁻¹, T¹, and A = (T − T¹) T⁻¹ with
+    errors A_stderr; lights: those that the matrices include."""
 
     def __init__(self, json: str, terms: List[Any], rest: NDArray[np.float32], channels: List[Any]) -> None:
         data = _report.from_json(json)
@@ -78,16 +77,16 @@ def unbounce(
     seed: int = 0,
     quiet: bool = False,
 ) -> Unbounced:
-    """Takes pictures of a scene under separate lights apart into bounces: as ``neumann unbounce``, on arrays.
+    """Separates pictures of a scene under single lights into bounces, as ``neumann unbounce`` does, but on arrays.
 
-    pictures: (lights, height, width, 3), linear radiance; or a matrix T (regions, lights), a column a light, whose region r is that of light r.
-    stderr: their standard errors. direct: the direct light in them, and use_direct: take T¹ from it in place of from T⁻¹. forward: K^i Le of all
-    lights together, i = 1, 2, …, to compare with. picture: the one that is taken apart; without it the sum of all.
+    pictures: (lights, height, width, 3), linear radiance; or a matrix T (regions, lights) with a column for each light, whose
+    region r is that of light r. stderr: their standard errors. direct: the direct light in them; use_direct: take T¹ from it
+    instead of from T⁻¹. forward: K^i Le of all lights together, i = 1, 2, …, for comparison. picture: the one to separate; default
+    the sum of all.
 
-    regions: (height, width), the number of the light, from 0, that a pixel belongs to, or −1; lights: (columns, rows), which are blocks of the
-    picture; without either the light under which a pixel is brightest. regularisation: Tikhonov's parameter. seed: of the repeats that tell
-    errors. Raises InputError.
-    """
+    regions: (height, width), the number of the light, from 0, to which a pixel belongs, or −1; lights: (columns, rows), for regions
+    that are blocks of the picture; by default a pixel belongs to the light under which it is brightest. regularisation: Tikhonov's
+    parameter. seed: of the repeats from which errors are estimated. Raises InputError."""
 
     def stack(given: Optional[ArrayLike], what: str) -> Optional[NDArray[np.float64]]:
         if given is None:
@@ -119,11 +118,10 @@ def unbounce(
 
 
 class LightPictures(Described):
-    """A scene under each of a projector's lights, in the place of the camera: what ``Scene.under_lights()`` renders.
+    """A scene under each light of a projector at the place of the camera, as ``Scene.under_lights()`` renders it.
 
-    pictures and direct: (lights, height, width, 3), all bounces and bounce 1 alone; forward: (bounces, height, width, 3), K^i Le of all lights
-    together; each with standard errors of the same shape. lights: (columns, rows).
-    """
+    pictures and direct: (lights, height, width, 3), all bounces and bounce 1 alone; forward: (bounces, height, width, 3), K^i Le of
+    all lights together; each with standard errors of the same shape. lights: (columns, rows)."""
 
     def __init__(self, lights: Lights, made: Any) -> None:
         self.lights = lights
@@ -135,7 +133,7 @@ class LightPictures(Described):
         return f"<LightPictures under {columns} × {rows} lights, {self.pictures.shape[2]} × {self.pictures.shape[1]} pixels>"
 
     def unbounce(self, *, bounces: Optional[int] = None, use_direct: bool = False, seed: int = 0, quiet: bool = False) -> Unbounced:
-        """``neumann.unbounce()`` of them, beside the forward terms."""
+        """Returns ``neumann.unbounce()`` of these pictures, compared with the forward terms."""
         pictures = (self.pictures, self.stderr, self.direct, self.direct_stderr, self.forward, self.forward_stderr)
         job = _neumann.unbounce(*pictures, None, None, self.lights, bounces or len(self.forward), None, use_direct, seed, self._besides)
         found: Unbounced = run(job, quiet, lambda made: Unbounced(*made))
