@@ -1,4 +1,4 @@
-"""K = R T as a matrix: of a scene, or anyone's."""
+"""K = R T as a matrix, of a scene or of any other problem."""
 
 from os import PathLike
 from pathlib import Path
@@ -20,7 +20,7 @@ from ._report import Report
 Matrix = Union[scipy.sparse.spmatrix, LinearOperator, ArrayLike]
 
 SOLVERS: Dict[str, str] = dict(_neumann.solvers)
-"""The names that solve() takes, and what they stand for."""
+"""The solvers of solve(): name and description."""
 
 STEPS = ("applications", "estimate", "error", "seconds")
 _bounds = ("bounce", "power", "l2", "sup", "ratio", "a_priori", "a_posteriori", "estimate", "enclosure_width")
@@ -29,20 +29,19 @@ _bounds = ("bounce", "power", "l2", "sup", "ratio", "a_priori", "a_posteriori", 
 class Matrices(Patched):
     """T, R and Le of one channel of a scene on patches: ``T, R, Le = scene.matrices()``.
 
-    Fields on patches are vectors of one value an unknown, basic radiance in W·m⁻²·sr⁻¹: a diffuse side of a patch is one unknown,
-    others have one for each cell of their directions.
+    Fields on patches are vectors of basic radiance in W·m⁻²·sr⁻¹ with one value for each unknown: a diffuse side of a patch is one
+    unknown, other sides have one for each cell of their directions.
 
     T: transport, (rays, unknowns): a row is 1 where its ray meets an unknown.
-    R: reflection, (unknowns, rays): what the rays bring to what the unknowns send.
+    R: reflection, (unknowns, rays): how much each ray contributes to the radiance of each unknown.
     Le: emitted radiance, (unknowns,).
     b: K Le, (unknowns,); sampled on the lights where the rays hardly meet them.
     measure: n² times area times projected solid angle of an unknown, (unknowns,), m²·sr: ⟨f, g⟩ = Σ measure · f · g.
-    ray_measure: the same of a ray, (rays,).
-    reflectance: of each unknown, (unknowns,); None where a side is not diffuse.
-    patches: a row for each side of a patch: its first ``unknown``, how many ``directions``, ``patch``, ``side``, ``shape``, the middle
-    ``x, y, z`` and the normal ``nx, ny, nz`` in scene units, ``area``.
-    channel: "grey", "red", "green" or "blue".
-    """
+    ray_measure: the same for each ray, (rays,).
+    reflectance: of each unknown, (unknowns,); None if a side is not diffuse.
+    patches: a row for each side of a patch: its first ``unknown``, its number of ``directions``, ``patch``, ``side``, ``shape``,
+    its centre ``x, y, z`` and normal ``nx, ny, nz`` in scene units, ``area``.
+    channel: "grey", "red", "green" or "blue"."""
 
     T: scipy.sparse.csr_matrix
     R: scipy.sparse.csr_matrix
@@ -64,10 +63,10 @@ class Matrices(Patched):
     def save(self, folder: Union[str, "PathLike[str]"], format: str = "npz") -> None:
         """Writes T, R, K and the vectors into a folder, for other programs.
 
-        "npz": T.npz, R.npz and K.npz, which scipy.sparse.load_npz reads, and vectors.npz for np.load, with Le, b, measure, ray_measure and
-        patches. "petsc": T.petsc, R.petsc and K.petsc for PETSc's MatLoad, and Le.petsc, b.petsc, measure.petsc and ray_measure.petsc for
-        VecLoad, in PETSc's binary format with real numbers of 64 and indices of 32 bits. Raises InputError for another format.
-        """
+        "npz": T.npz, R.npz and K.npz, which scipy.sparse.load_npz reads, and vectors.npz for np.load, with Le, b, measure,
+        ray_measure and patches. "petsc": T.petsc, R.petsc and K.petsc for PETSc's MatLoad, and Le.petsc, b.petsc, measure.petsc and
+        ray_measure.petsc for VecLoad, in PETSc's binary format with real numbers of 64 and indices of 32 bits. Raises InputError
+        for another format."""
         if format not in ("npz", "petsc"):
             raise _neumann.InputError(f"format={format!r}: expected 'npz' or 'petsc'")
         folder = Path(folder)
@@ -115,19 +114,21 @@ def series(
     measure: Optional[ArrayLike] = None,
     quiet: bool = False,
 ) -> Report:
-    """L = Le + K Le + K² Le + … until it is known to be close enough, or known not to get there.
+    """Adds up L = Le + K Le + K² Le + … until the sum is known to be close enough, or known not to converge.
 
-    K: (n, n), of scipy.sparse or dense, or the K of ``scene.operators()``. Le: (n,). error: of the sum, relative to its largest value. most: bounces. norm: a ≥ ‖K‖∞, as
-    the largest albedo; it makes the bounds. measure: (n,), of each unknown; 1 without it.
+    K: (n, n), of scipy.sparse or dense, or the K of ``scene.operators()``. Le: (n,). error: the error of the sum at which the
+    series ends, relative to its largest value. most: the largest number of bounces. norm: a number ≥ ‖K‖∞, such as the largest
+    albedo, for the bounds. measure: (n,), of each unknown; default 1.
 
     Returns a Report of
-    sum (n,), which is the middle of the enclosure where that ended it;
-    verdict, "converged", "rounding" (all that is left, and error is less), "limit" or "diverging", and why;
+    sum (n,), the middle of the enclosure if that ended the series;
+    verdict, "converged", "rounding" (only rounding errors are left, and they exceed ``error``), "limit" or "diverging", and why;
     warnings;
-    rows, a structured array with a row a bounce: bounce, power Σ m|t|, l2, sup of the term t = K^n Le, ratio of powers, and bounds on
-    ‖L − S_n‖∞: a_priori, a_posteriori (inf: there is none), estimate (no bound), enclosure_width, relative;
+    rows, a structured array with a row for each bounce: bounce; power Σ m|t|, l2 and sup of the term t = K^n Le; ratio of powers;
+    for ‖L − S_n‖∞ the bounds a_priori and a_posteriori (inf: there is none), and estimate, which is no bound; enclosure_width,
+    relative;
     rate, the ratio of the last terms;
-    enclosure: exists, why not, low and high (n,), between which L lies, width, c1, c2 (Collatz and Wielandt's quotients).
+    enclosure: exists, or why not; low and high (n,), between which L lies; width; c1 and c2, the quotients of Collatz and Wielandt.
     """
     operator = _operator(K, measure)
     made = run(_neumann.series(operator, real(Le, "Le"), error, most, norm), quiet)
@@ -139,15 +140,12 @@ def series(
 
 
 class Solutions(dict):
-    """What solvers found, by their names; each is a Report as of solve().
-
-    In a notebook it shows itself as a table.
-    """
+    """The results of solvers, by their names; each is a Report as that of solve(). A notebook shows them as a table."""
 
     def __init__(self, found: Dict[str, Report], about: Report) -> None:
         super().__init__(found)
         self.about = about
-        """What was solved: the scene, the channel, its spectral radius."""
+        """The equation: its scene, channel and spectral radius."""
 
     def __repr__(self) -> str:
         converged = sum(found.verdict == "converged" for found in self.values())
@@ -177,18 +175,18 @@ def solve(
     measure: Optional[ArrayLike] = None,
     quiet: bool = False,
 ) -> Any:
-    """L = Le + K L by one of SOLVERS, or by several of them, or by "all".
+    """Solves L = Le + K L by one of SOLVERS, by a list of them, or by "all".
 
-    K: (n, n), of scipy.sparse or dense, or the K of ``scene.operators()``. Le: (n,). error: estimated, relative to ‖L‖∞, that ends a solver. most: applications of K.
-    radius: spectral radius of K or a bound on it, which chebyshev needs, and which turns residuals into errors where ‖(I − K)⁻¹‖∞, for
-    K ≥ 0, is not bounded by a few applications. lowest: the lowest
-    eigenvalue where all are real; −radius without it. reflectance: (n,), ρ where K = diag(ρ) F with F reciprocal, for cg. exact: (n,), L
-    where it is known, to see true errors. measure: (n,), of each unknown; 1 without it.
+    K: (n, n), of scipy.sparse or dense, or the K of ``scene.operators()``. Le: (n,). error: the estimated error, relative to ‖L‖∞,
+    at which a solver ends. most: the largest number of applications of K. radius: the spectral radius of K or a bound on it.
+    chebyshev needs it; it also turns residuals into errors where, for K ≥ 0, a few applications of K give no bound on ‖(I − K)⁻¹‖∞.
+    lowest: the lowest eigenvalue if all are real; default −radius. reflectance: (n,), ρ if K = diag(ρ) F with F reciprocal, for cg.
+    exact: (n,), L if it is known, to get true errors. measure: (n,), of each unknown; default 1.
 
     Returns a Report of x (n,), verdict ("converged", "rounding", "limit", "diverging", "broke down", "refused"), why, applications
-    of K, setup_applications of these, seconds, and history, a structured array: applications, estimate, error (nan where L is not known),
-    seconds. Of several solvers: Solutions, these by name, and with "lu" among them the error of each to it. Raises InputError for an unknown solver.
-    """
+    of K, setup_applications, which are included in these, seconds, and history, a structured array: applications, estimate, error
+    (nan if L is not known), seconds. Of several solvers returns Solutions, which hold these by name and, if "lu" is among them, the
+    error of each relative to the x of "lu". Raises InputError for an unknown solver."""
     operator = _operator(K, measure)
     light = real(Le, "Le")
     rho = None if reflectance is None else real(reflectance, "reflectance")
@@ -220,15 +218,16 @@ def spectrum(
     adjoint: bool = False,
     quiet: bool = False,
 ) -> Report:
-    """Norms and leading eigenvalues of K (n, n), of K* where adjoint is set.
+    """Returns norms and leading eigenvalues of K (n, n), or of K* if adjoint is set.
 
-    most: applications of K that the search may take; it ends sooner where it is foretold to take more. What is not found is a warning.
+    most: the largest number of applications of K for the search, which ends sooner if it is expected to take more. Eigenvalues that
+    were not found are told by a warning.
 
-    Returns a Report of norms ("1", "2", "inf"; they belong to Σ m|f|, (Σ m f²)^½ and max |f|, m the measure, 1 without it: norm
-    "1" is of power if K comes from a scene and m is its matrices().measure), spectral_radius, nan where it was not found, series ("converges" …), eigenvalues (count,) by falling modulus, eigenvectors (n, count), residuals, what was reached where not
-    all were found, eigenvalues_converged, applications of K, why they were not found, and history, a structured array: applications,
-    residual, the largest of all that are wanted, relative.
-    """
+    The Report holds norms ("1", "2" and "inf"; they belong to Σ m|f|, (Σ m f²)^½ and max |f|, where m is the measure, default 1:
+    norm "1" is that of power if K comes from a scene and m is its matrices().measure), spectral_radius (nan if it was not found),
+    series ("converges" …), eigenvalues (count,) by falling modulus, eigenvectors (n, count), residuals (those reached if not all
+    were found), eigenvalues_converged, applications of K, why not all were found, and history, a structured array: applications,
+    and residual, the largest of all eigenvalues that are sought, relative."""
     operator = _operator(K, measure)
     made = run(_neumann.spectrum_of(operator, count, adjoint, most), quiet)
     made["history"] = _report.rows(made["history"], ("applications", "residual"))
@@ -239,9 +238,9 @@ def spectrum(
 
 
 def cube(n: int = 16) -> Report:
-    """The inside of the unit cube with n × n patches a face, by exact form factors: ``K = albedo * cube(16).F``.
+    """The inside of the unit cube with n × n patches on each face, by exact form factors: ``K = albedo * cube(16).F``.
 
-    Returns a Report of F (6n², 6n²), area (6n²,), face (6n²,): 0 and 1 for x = 0, 1; 2 and 3 for y; 4 the floor and 5 the ceiling.
-    """
+    Returns a Report of F (6n², 6n²), area (6n²,), face (6n²,): 0 and 1 for x = 0 and 1; 2 and 3 for y; the floor
+    is 4, and the ceiling is 5."""
     F, area, face = run(_neumann.cube(n))
     return Report(F=F, area=area, face=np.array(face))

@@ -1,4 +1,4 @@
-"""Arrays that callers give, as numbers that nothing was dropped from."""
+"""Converts arrays of callers to numbers, without loss."""
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -7,7 +7,8 @@ from ._neumann import InputError
 
 
 def real(given: ArrayLike, what: str, *, finite: bool = True) -> NDArray[np.float64]:
-    """As doubles. Raises InputError, "what: …", for complex numbers, for what are no numbers, and for NaN and infinity where finite is set."""
+    """Converts to doubles. Raises InputError, "what: …", for complex numbers, for values that are no numbers and, if ``finite``,
+    for NaN and infinity."""
     array = np.asarray(given)
     if array.dtype.kind == "c":
         raise InputError(f"{what}: complex numbers, expected real ones")
@@ -22,7 +23,7 @@ def real(given: ArrayLike, what: str, *, finite: bool = True) -> NDArray[np.floa
 
 
 def whole(given: ArrayLike, what: str) -> NDArray[np.int64]:
-    """Whole numbers. Raises InputError for fractions, and for True and False, which are a mask."""
+    """Converts to integers. Raises InputError for fractions, and for True and False, which are a mask."""
     array = np.asarray(given)
     if array.dtype.kind == "b":
         raise InputError(f"{what}: True and False, expected whole numbers")

@@ -1,4 +1,4 @@
-"""What a scene is asked as a matrix: its surfaces are cut into patches for it."""
+"""Functions of a scene as a matrix, for which its surfaces are cut into patches."""
 
 from typing import Any, Dict, List, Literal, Optional, Tuple, TypedDict, Unpack
 
@@ -15,21 +15,21 @@ Channel = Literal["r", "g", "b"]
 
 
 class PatchOptions(TypedDict, total=False):
-    """How the surfaces are cut, and what that may cost."""
+    """How the surfaces are cut, and which resources that may take."""
 
     patches: Optional[int]
-    """About so many, 2000 without it."""
+    """Their approximate number, default 2000."""
     directions: Optional[int]
-    """Rays of each side of a patch, a power of two, 64 without it."""
+    """Rays of each side of a patch, a power of two, default 64."""
     seed: Optional[int]
     memory: Optional[float]
     """GiB that may be taken."""
     threads: Optional[int]
-    """All without it."""
+    """Default all."""
 
 
 def _asked(keywords: Dict[str, Any], function: str) -> List[Tuple[str, List[str]]]:
-    """Of its locals()."""
+    """Returns the options of a function, from its locals()."""
     return options({**keywords, **checked(keywords["of_patches"], PatchOptions, function)})
 
 
@@ -48,9 +48,9 @@ class OnPatches:
     ) -> Matrices:
         """T, R and Le on patches: ``T, R, Le = scene.matrices()``; then ``K = R @ T``, and ``L = Le + K @ Le + K @ K @ Le + …``.
 
-        patches: about so many, 2000 without it. directions: rays of each side of a patch, a power of two, 64 without it. channel: r, g
-        or b; without it the one that reflects most, of the largest ⟨K 1, 1⟩ / ⟨1, 1⟩. memory: GiB that may be taken. Raises InputError.
-        """
+        patches: their approximate number, default 2000. directions: rays of each side of a patch, a power of two, default 64.
+        channel: r, g or b; default the one that reflects most, with the largest ⟨K 1, 1⟩ / ⟨1, 1⟩. memory: GiB that may be taken.
+        Raises InputError."""
         return Matrices(run(_neumann.patched(self._scene, _asked(locals(), "matrices")), quiet))
 
     @with_keywords(PatchOptions)
@@ -63,8 +63,7 @@ class OnPatches:
     ) -> Operators:
         """T, R, K and I − K as SciPy's LinearOperators, with the same rays as ``matrices()`` and without making a matrix.
 
-        Keywords as of ``matrices()``. Raises InputError.
-        """
+        Keywords are those of ``matrices()``. Raises InputError."""
         return Operators(run(_neumann.patched(self._scene, _asked(locals(), "operators")), quiet))
 
     @with_keywords(PatchOptions)
@@ -78,15 +77,16 @@ class OnPatches:
         quiet: bool = False,
         **of_patches: Unpack[PatchOptions],
     ) -> Report:
-        """Norms and leading eigenvalues of K, whether and how fast the series ends, rounding: what ``neumann spectrum --json`` prints.
+        """Norms and leading eigenvalues of K, whether and how fast the series converges, and rounding: the contents of
+        ``neumann spectrum --json``.
 
-        channel: r, g or b; without it all that differ. eigenvalues: how many, 4 without it. time: seconds to look for them, 60 without it; most: applications of K of a search, 10000.
-        The others are as of ``matrices()``. Each of the Report's ``channels`` has ``spectral_radius``, ``series`` ("converges" …),
-        ``norms`` ("inf" of radiance, "1" of power, with ``norm_1_standard_error`` by the rays, and "2"), ``eigenvalues`` (k,) complex, by
-        falling modulus, ``eigenvectors`` (unknowns, k), on the unknowns of ``matrices()`` with the same patches, directions and seed,
-        ``residuals`` (k,), ``refinement``, ``bounces_until``, ``rounding``, and ``eigenvalues_search``: its applications, its history, and
-        why what it reached is not what it looked for, which is a warning, too.
-        """
+        channel: r, g or b; default all that differ. eigenvalues: their number, default 4. time: seconds of the search for them,
+        default 60; most: applications of K in a search, default 10000. The other keywords are those of ``matrices()``. Each of the
+        Report's ``channels`` has ``spectral_radius``, ``series`` ("converges" …), ``norms`` ("inf" of radiance, "1" of power, with
+        ``norm_1_standard_error`` due to the rays, and "2"), ``eigenvalues`` (k,) complex, by falling modulus, ``eigenvectors``
+        (unknowns, k), on the unknowns of ``matrices()`` with the same patches, directions and seed, ``residuals`` (k,),
+        ``refinement``, ``bounces_until``, ``rounding``, and ``eigenvalues_search``: its applications, its history, and why it did
+        not find all eigenvalues, which is also a warning."""
         text, vectors = run(_neumann.spectrum(self._scene, _asked(locals(), "spectrum")), quiet)
         report = _report.from_json(text)
         for channel, columns in zip(report.channels, vectors):
@@ -108,14 +108,13 @@ class OnPatches:
         quiet: bool = False,
         **of_patches: Unpack[PatchOptions],
     ) -> Solutions:
-        """L = Le + K L by the series and by all other solvers, side by side: as ``neumann solve``.
+        """Solves L = Le + K L by the series and by all other solvers, to compare them, as ``neumann solve`` does.
 
-        channel: r, g or b; without it the one with the largest spectral radius. error: relative, that ends a solver, 1e-6 without it.
-        most: applications of K that a solver may take, 10000 without it. The others are as of ``matrices()``.
+        channel: r, g or b; default the one with the largest spectral radius. error: the relative error at which a solver ends,
+        default 1e-6. most: the largest number of applications of K, default 10000. The other keywords are those of ``matrices()``.
 
-        Returns Reports by the solvers' names; each has x (unknowns,), or x = L − Le where ``about.unknown`` says so, verdict, why,
-        applications, error to LU, history. Raises InputError.
-        """
+        Returns Reports by the solvers' names; each has x (unknowns,), or x = L − Le if ``about.unknown`` says so, verdict, why,
+        applications, error relative to LU, history. Raises InputError."""
         text, x, warnings = run(_neumann.solve(self._scene, _asked(locals(), "solve")), quiet)
         about = _report.from_json(text)
         rows = about.pop("solvers")

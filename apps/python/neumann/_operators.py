@@ -1,4 +1,4 @@
-"""K, T and R as SciPy's operators, of which no matrix is made."""
+"""K, T and R as operators of SciPy, without making a matrix."""
 
 from functools import cached_property
 from typing import Any, Callable, Optional
@@ -16,13 +16,13 @@ Product = Callable[[Vector], Vector]
 
 
 class PatchOperator(LinearOperator):
-    """A square matrix A (unknowns, unknowns) of which only A x and Aᵀ x are known."""
+    """A square matrix A (unknowns, unknowns), of which only the products A x and Aᵀ x are available."""
 
     def __init__(self, size: int, product: Product, transposed: Product, compiled: Optional["_neumann.Operator"] = None) -> None:
         super().__init__(np.float64, (size, size))
         self._product, self._transposed = product, transposed
         self.compiled = compiled
-        """K for the solvers of ``neumann.solve``, where this is K."""
+        """If this operator is K: K as the solvers of ``neumann.solve`` take it."""
 
     @staticmethod
     def _apply(product: Product, x: NDArray[Any]) -> NDArray[Any]:
@@ -41,7 +41,7 @@ def _minus(A: LinearOperator) -> LinearOperator:
 
 
 def _partial_sum(A: LinearOperator, terms: int) -> LinearOperator:
-    """Σ_{k<terms} A^k, by Horner's rule."""
+    """Returns Σ_{k<terms} A^k, by Horner's rule."""
     if terms < 1:
         raise _neumann.InputError(f"terms={terms}: expected 1 or more")
 
@@ -64,15 +64,14 @@ def _diagonal(d: Vector) -> LinearOperator:
 class Symmetrised(Described):
     """K with a reciprocal T as a symmetric matrix, for ``eigsh``, ``cg`` and ``minres``; all surfaces are diffuse.
 
-    T is its own adjoint, but rays from one side sample it so that this holds only in the mean. T̄ = (T + T*)/2 has it exactly, with the
-    same mean. With ρ the reflectance and M the measure, K̄ = ρ T̄ has the eigenvalues of
+    T is its own adjoint, but rays from one side sample it, so that this holds only in the mean. T̄ = (T + T*)/2 is exactly its own
+    adjoint and has the same mean. With ρ the reflectance and M the measure, K̄ = ρ T̄ has the eigenvalues of
 
         S = (ρ M)^½ T̄ (ρ/M)^½,  which is symmetric,
 
-    and L = Le + K̄ L that of (I − S) z = b, b = (ρ M)^½ T̄ Le, with L = Le + (ρ/M)^½ z. ρ may be 0.
+    and L = Le + K̄ L follows from (I − S) z = b, b = (ρ M)^½ T̄ Le, by L = Le + (ρ/M)^½ z. ρ may be 0.
 
-    S, I_minus_S: (unknowns, unknowns), LinearOperator. b: (unknowns,).
-    """
+    S, I_minus_S: (unknowns, unknowns), LinearOperator. b: (unknowns,)."""
 
     def __init__(self, T: "_neumann.Operator", reflectance: Vector, Le: Vector) -> None:
         self._Le = Le
@@ -90,37 +89,36 @@ class Symmetrised(Described):
         self.b: Vector = left * mean(Le)
 
     def field(self, z: ArrayLike) -> Vector:
-        """L = Le + (ρ/M)^½ z."""
+        """Returns the field L = Le + (ρ/M)^½ z."""
         return self._Le + self._right * np.asarray(z)
 
     def mode(self, z: ArrayLike) -> NDArray[Any]:
-        """The eigenvector (ρ/M)^½ z of K̄ that belongs to z of S."""
+        """Returns the eigenvector (ρ/M)^½ z of K̄ that belongs to the eigenvector z of S."""
         return self._right * np.asarray(z)
 
     def __repr__(self) -> str:
         return f"<Symmetrised K, {len(self.b)} × {len(self.b)}>"
 
     def series(self, terms: int = 4) -> LinearOperator:
-        """Σ_{k<terms} S^k, a preconditioner for ``cg``: positive definite where the spectral radius of S is below 1."""
+        """Returns Σ_{k<terms} S^k, a preconditioner for ``cg``: positive definite if the spectral radius of S is below 1."""
         return _partial_sum(self.S, terms)
 
 
 class Operators(Patched):
-    """T, R, K = R T and I − K of one channel of a scene on patches: ``scene.operators()``. No matrix is made; a product is one of the
-    compiled operators, on all processors, and costs little more memory than the rays of T, four bytes each.
+    """T, R, K = R T and I − K of one channel of a scene on patches: ``scene.operators()``. No matrix is made: products are computed
+    by the compiled operators, on all processors, and take little more memory than the rays of T, four bytes each.
 
-    All are LinearOperators (unknowns, unknowns), with ``rmatvec`` and ``.T``. What T gives has a value for each unknown, too: incident
-    radiance in its cell of directions, the mean over its rays. (``matrices()`` has a row for each ray.)
+    All are LinearOperators (unknowns, unknowns), with ``rmatvec`` and ``.T``. The result of T has a value for each unknown, too:
+    the mean incident radiance over the rays in its cell of directions. (In ``matrices()``, T has a row for each ray.)
 
     K, T, R, I_minus_K: the operators.
     Le, b: emitted radiance and K Le, (unknowns,), b sampled on the lights where the rays hardly meet them.
     measure: n² times area times projected solid angle of an unknown, (unknowns,), m²·sr: ⟨f, g⟩ = Σ measure · f · g.
-    reflectance: ρ with K = diag(ρ) T, (unknowns,); None where a side is not diffuse.
-    patches: as of ``matrices()``. channel: "grey", "red", "green" or "blue".
-    """
+    reflectance: ρ with K = diag(ρ) T, (unknowns,); None if a side is not diffuse.
+    patches: as in ``matrices()``. channel: "grey", "red", "green" or "blue"."""
 
     def _transposed(self, adjoint: Product) -> Product:
-        """Aᵀ = M A* M⁻¹."""
+        """Returns the product with Aᵀ = M A* M⁻¹."""
         return lambda x: self.measure * adjoint(x / self.measure)
 
     def _of(self, A: "_neumann.Operator", is_K: bool) -> PatchOperator:
@@ -132,7 +130,7 @@ class Operators(Patched):
 
     @cached_property
     def K(self) -> LinearOperator:
-        """R T: one bounce. Also ``neumann.solve(operators.K, operators.Le)``, ``series`` and ``spectrum`` take it."""
+        """R T, which is one bounce. ``neumann.solve(operators.K, operators.Le)``, ``series`` and ``spectrum`` take it, too."""
         return self._of(self._patched.K(), True)
 
     @cached_property
@@ -145,30 +143,30 @@ class Operators(Patched):
 
     @cached_property
     def T(self) -> LinearOperator:
-        """Radiance that leaves to radiance that arrives."""
+        """Maps exitant radiance to incident radiance."""
         return self._of(self._transport, False)
 
     @cached_property
     def R(self) -> LinearOperator:
-        """Radiance that arrives to radiance that leaves; R* has the entries of R."""
+        """Maps incident radiance to exitant radiance; R* has the entries of R."""
         reflect = self._patched.reflect
         return PatchOperator(len(self.Le), reflect, self._transposed(reflect))
 
     @cached_property
     def I_minus_K(self) -> LinearOperator:
-        """I − K: ``gmres(operators.I_minus_K, operators.Le, M=operators.series())``."""
+        """I − K, for solvers of SciPy: ``gmres(operators.I_minus_K, operators.Le, M=operators.series())``."""
         return _minus(self.K)
 
     def series(self, terms: int = 4) -> LinearOperator:
-        """Σ_{k<terms} K^k, the series cut off as a preconditioner for I − K: ``M=`` of SciPy's solvers."""
+        """Returns Σ_{k<terms} K^k, the truncated series, as a preconditioner for I − K: ``M=`` of SciPy's solvers."""
         return _partial_sum(self.K, terms)
 
     def jacobi(self) -> LinearOperator:
-        """diag(1 / (1 − K_uu)), a preconditioner for I − K, of use where surfaces see themselves."""
+        """Returns diag(1 / (1 − K_uu)), a preconditioner for I − K that helps if surfaces see themselves."""
         return _diagonal(1.0 / (1.0 - self.K.compiled.diagonal()))
 
     def symmetrised(self) -> Symmetrised:
-        """K as a symmetric matrix, where all surfaces are diffuse. Raises InputError elsewhere."""
+        """Returns K as a symmetric matrix. Raises InputError if a surface is not diffuse."""
         if self.reflectance is None:
             raise _neumann.InputError(f"{self.title}: expected diffuse surfaces alone; only of them K is made symmetric")
         return Symmetrised(self._transport, self.reflectance, self.Le)

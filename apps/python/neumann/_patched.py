@@ -1,4 +1,4 @@
-"""One channel of a scene on patches: what its matrices and its operators share."""
+"""One channel of a scene on patches: the part that its matrices and its operators share."""
 
 from os import PathLike
 from pathlib import Path
@@ -17,8 +17,8 @@ Vector = NDArray[np.float64]
 
 
 class Patched(Described):
-    """Fields on patches are vectors of one value an unknown, basic radiance in W·m⁻²·sr⁻¹: a diffuse side of a patch is one unknown,
-    others have one for each cell of their directions."""
+    """Fields on patches are vectors of basic radiance in W·m⁻²·sr⁻¹ with one value for each unknown: a diffuse side of a patch is
+    one unknown, other sides have one for each cell of their directions."""
 
     Le: Vector
     b: Vector
@@ -38,7 +38,7 @@ class Patched(Described):
 
     @property
     def radius(self) -> float:
-        """The spectral radius of K, which is looked for when it is first asked for; nan, with a warning, where it was not found."""
+        """The spectral radius of K, computed when it is first needed; nan, with a warning, if it was not found."""
         if self._radius is None:
             self._radius, why = run(self._patched.radius())
             if why:
@@ -52,10 +52,10 @@ class Patched(Described):
         return x
 
     def camera(self, spp: int = 16, seed: int = 0) -> scipy.sparse.csr_matrix:
-        """The camera as a matrix, (height · width, unknowns): ``(camera @ x).reshape(height, width)`` is the picture of a field x.
+        """Returns the camera as a matrix, (height · width, unknowns): ``(camera @ x).reshape(height, width)`` is the picture of a
+        field x.
 
-        Of spp camera rays a pixel, a power of two; rows sum to the part of them that meets an unknown.
-        """
+        spp: camera rays of a pixel, a power of two. The sum of a row is the fraction of them that meets an unknown."""
         if spp < 1 or spp & (spp - 1):
             raise _neumann.InputError(f"spp={spp}: expected a power of two, such as 16")
         if (spp, seed) not in self._cameras:
@@ -63,17 +63,17 @@ class Patched(Described):
         return self._cameras[spp, seed]
 
     def picture(self, x: ArrayLike, spp: int = 16) -> Vector:
-        """What the camera sees of a field x (unknowns,), as it is on the patches: (height, width), row 0 on top."""
+        """Returns the picture of a field x (unknowns,) that is constant on each patch: (height, width), row 0 on top."""
         x = self._field(x)
         return (self.camera(spp) @ x).reshape(self._patched.height, self._patched.width)
 
     def save_vtk(self, path: Union[str, "PathLike[str]"], **fields: ArrayLike) -> None:
-        """Writes the patches as VTK's PolyData with fields on them, for ParaView: ``save_vtk("room.vtp", L=L, first=vectors[:, 0])``.
+        """Writes the patches as VTK's PolyData with fields on them, for ParaView:
+        ``save_vtk("room.vtp", L=L, first=vectors[:, 0])``.
 
-        A field (unknowns,) is a number for each polygon under its keyword, of several directions their mean; a complex one has two, with
-        _real and _imag. ``row`` is that of ``patches``, and ``shape`` and ``back`` (1: the polygon is the back of its shape) are as
-        there. A round patch is 16 quadrilaterals, and one on an outline that divides it from others many.
-        """
+        A field (unknowns,) becomes a number for each polygon, the mean over its directions, named by the keyword; a complex field
+        becomes two, with _real and _imag. ``row`` is the row of ``patches``, whose ``shape`` is written, too, and ``back`` is 1 if
+        the polygon is the back of its shape. A round patch has 16 quadrilaterals, and a patch cut off by an outline has many."""
         path = Path(path)
         if path.suffix != ".vtp":
             raise _neumann.InputError(f"{path}: expected a name that ends with .vtp, by which programs know VTK's PolyData")

@@ -1,4 +1,4 @@
-"""PETSc's binary files, which MatLoad and VecLoad read: big-endian, indices of 32 bits (PETSc manual, MatLoad)."""
+"""Writes PETSc's binary files for MatLoad and VecLoad: big-endian, indices of 32 bits (PETSc manual, MatLoad)."""
 
 from pathlib import Path
 
@@ -16,7 +16,7 @@ def _integers(values: object) -> bytes:
 
 
 def write_matrix(path: Path, matrix: scipy.sparse.csr_matrix) -> None:
-    """Class, rows, columns, entries; entries of each row; their columns; their values."""
+    """Writes class, rows, columns and number of entries, the number of entries in each row, their columns, and their values."""
     if matrix.nnz > np.iinfo(np.int32).max:
         raise InputError(f"{path}: {matrix.nnz} entries, expected at most {np.iinfo(np.int32).max}, which PETSc's files can number")
     sorted_rows = matrix.sorted_indices()
@@ -25,5 +25,5 @@ def write_matrix(path: Path, matrix: scipy.sparse.csr_matrix) -> None:
 
 
 def write_vector(path: Path, vector: NDArray[np.float64]) -> None:
-    """Class, length, values."""
+    """Writes class, length and values."""
     path.write_bytes(_integers([_vector, len(vector)]) + vector.astype(">f8").tobytes())

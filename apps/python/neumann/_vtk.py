@@ -1,4 +1,4 @@
-"""VTK's XML PolyData, which ParaView opens (VTK File Formats, https://docs.vtk.org/en/latest/vtk_file_formats)."""
+"""Writes VTK's XML PolyData, which ParaView opens (VTK File Formats, https://docs.vtk.org/en/latest/vtk_file_formats)."""
 
 import base64
 from pathlib import Path
@@ -19,7 +19,7 @@ def _add(parent: ElementTree.Element, name: str, values: NDArray[Any], component
 
 
 def write_quadrilaterals(path: Path, corners: NDArray[np.float64], of_each: Dict[str, NDArray[Any]]) -> None:
-    """corners: (n, 4, 3). of_each: numbers (n,) by their names."""
+    """Writes quadrilaterals. corners: (n, 4, 3). of_each: values (n,) by their names."""
     n = len(corners)
     file = ElementTree.Element("VTKFile", type="PolyData", version="1.0", byte_order="LittleEndian", header_type="UInt64")
     piece = ElementTree.SubElement(
