@@ -1,4 +1,4 @@
-"""Scenes as Mitsuba's dictionaries: the elements of the scene file that says the same."""
+"""Turns scenes as Mitsuba's dictionaries into the elements of the scene file with the same meaning."""
 
 import difflib
 from typing import Any, Callable, Dict, List, Mapping, NamedTuple, Sequence, Tuple
@@ -23,13 +23,13 @@ _plugins = {
     "spectrum": "regular irregular uniform d65 blackbody",
 }
 TAGS = {name: tag for tag, names in _plugins.items() for name in names.split()}
-"""What a plugin is, by its name, which says it in Mitsuba, too."""
+"""The tag of each plugin, by its name."""
 
 Element = Tuple[str, List[Tuple[str, str]], List[Any], str]  # tag, attributes, children, key path
 
 
 class Parsed(NamedTuple):
-    """A dictionary as elements, with the meshes that are arrays in it, by the names that the elements have for them."""
+    """A dictionary as elements, and the meshes that it holds as arrays, by the names that the elements have for them."""
 
     root: Element
     meshes: Dict[str, Tuple[NDArray[Any], ...]]
@@ -40,13 +40,13 @@ def _numbers(values: NDArray[np.float64]) -> str:
 
 
 def _matrix(m: NDArray[np.float64]) -> NDArray[np.float64]:
-    if m.shape == (3, 3):  # of texture coordinates
+    if m.shape == (3, 3):  # a transform of texture coordinates
         m = np.block([[m[:2, :2], np.zeros((2, 1)), m[:2, 2:]], [0, 0, 1, 0], [m[2:, :2], 0, m[2:, 2:]]])
     return m
 
 
 def value_of(value: Any, where: str, triple: str) -> Tuple[str, str]:
-    """The tag and the text of a parameter; ``triple``: the tag of three numbers."""
+    """Returns the tag and the text of a parameter. ``triple``: the tag of three numbers."""
     if isinstance(value, (bool, np.bool_)):
         return "boolean", "true" if value else "false"
     if isinstance(value, (int, np.integer)):
@@ -123,7 +123,7 @@ class _Parser:
         return [self.element(key, child, below(key), is_top) for key, child in value.items() if key not in ("type", "id")]
 
     def _spectrum(self, key: str, value: Mapping[str, Any], path: str) -> Element:
-        """Pairs of nm and value, or one value at all wavelengths, or a file."""
+        """Returns the element of a spectrum: pairs of wavelength in nm and value, one value for all wavelengths, or a file."""
         rest = set(value) - {"type", "id"}
         if rest == {"filename"}:
             return "spectrum", [("name", key), ("filename", str(value["filename"]))], [], path
@@ -166,18 +166,18 @@ class _Parser:
 
 
 def parse(dictionary: Any, name: str) -> Parsed:
-    """Raises InputError, "name#/path/of/keys: what is wrong, what was expected"."""
+    """Parses a dictionary. Raises InputError, "name#/path/of/keys: what is wrong, what was expected"."""
     parser = _Parser(name)
     return Parsed(parser.scene(dictionary), parser.meshes)
 
 
 def edits_of(changes: Mapping[str, Any]) -> List[Tuple[str, str, str]]:
-    """(name, tag, text) for each."""
+    """Returns (name, tag, text) for each change."""
     return [(name, *value_of(value, name, "rgb")) for name, value in changes.items()]
 
 
 def look_at(origin: Sequence[float], target: Sequence[float], up: Sequence[float] = (0.0, 1.0, 0.0)) -> NDArray[np.float64]:
-    """The pose of a camera, or of a lamp, as a 4 × 4 matrix: at the origin, looking at the target, as Mitsuba's look_at."""
+    """Returns the pose of a camera or a lamp as a 4 × 4 matrix: at the origin, looking at the target, as Mitsuba's look_at does."""
     o, t = real(origin, "origin"), real(target, "target")
     forward, left = t - o, np.cross(up, t - o)
     if not np.linalg.norm(left) > 0.0:

@@ -8,16 +8,16 @@ from numpy.typing import ArrayLike
 from ._report import Report
 
 Estimator = Callable[[Report, int, np.random.Generator], ArrayLike]
-"""Of camera rays, the last bounce and random numbers: samples of K^i Le, (rays, bounces, 3)."""
+"""A function of camera rays, the last bounce and random numbers that returns samples of K^i Le, (rays, bounces, 3)."""
 
 
 def name_of(estimator: Estimator) -> str:
-    """How a study calls it."""
+    """Returns the name of the estimator in a study."""
     return getattr(estimator, "__name__", type(estimator).__name__) + "()"
 
 
 def from_rays(estimator: Estimator) -> Any:
-    """The function that the compiled part calls."""
+    """Returns the function that the compiled part calls."""
 
     def call(rays: Dict[str, Any], bounces: int, seed: int) -> ArrayLike:
         return estimator(Report(rays), bounces, np.random.default_rng(seed))

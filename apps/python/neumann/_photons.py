@@ -1,4 +1,4 @@
-"""Photons: what paths from the lights leave where they are reflected."""
+"""Photons: the light that paths from the lights deposit where they are reflected."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -7,16 +7,16 @@ from ._rows import Rows
 
 
 class Photons(Rows):
-    """Photons of a scene: ``scene.photons()``. Rows belong together, path by path.
+    """The photons of a scene: ``scene.photons()``. Rows belong together; photons of a path follow each other.
 
-    Photon p lies where light of bounce j − 1 arrives that leaves as K^j Le. Surfaces that are mirrors or glass alone have none.
+    A photon lies at a point where light of bounce j − 1 arrives, which leaves as K^j Le. Surfaces that are only mirrors or glass
+    have none.
 
-    position: (n, 3), scene units. normal: (n, 3). wi: (n, 3), towards where it came from.
-    power: (n, 3), W in red, green and blue, as a part of that of all paths: their sum over one bounce is the power that arrives.
+    position: (n, 3), scene units. normal: (n, 3). wi: (n, 3), the direction to where the light came from.
+    power: (n, 3), W in red, green and blue, divided by the number of paths: the sum over one bounce is the power that arrives.
     bounce: (n,), from 1 on. path: (n,), the number of the path from the light.
-    caustic: (n,), whether the path has met mirrors and glass alone before.
-    pixel: (n, 2), x and y on the film, pixel (0, 0) from 0 to 1; nan where the camera does not see it directly.
-    """
+    caustic: (n,), whether the path met only mirrors and glass before.
+    pixel: (n, 2), x and y on the film; pixel (0, 0) is from 0 to 1; nan if the camera does not see the photon directly."""
 
     position: NDArray[np.float64]
     normal: NDArray[np.float64]

@@ -1,4 +1,4 @@
-"""Records of an irradiance cache: where light is known, and from where it is read nearby."""
+"""Records of an irradiance cache: points with known irradiance, which is interpolated nearby."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -7,14 +7,13 @@ from ._rows import Rows
 
 
 class Records(Rows):
-    """The records of a cache: ``scene.records()``. Rows belong together, in the order in which the records were placed.
+    """The records of an irradiance cache: ``scene.records()``. Rows belong together, in the order of placement.
 
     position: (n, 3), scene units. normal: (n, 3), on the side that reflects.
-    radius: (n,), how far from there the record is read, scene units.
-    seen: (n,), whether the camera reads it; the others are read by records alone.
-    irradiance: (n, bounces, 3), W/m², red, green and blue: column k − 1 is E_k, of the light that has been reflected k times before.
-    pixel: (n, 2), x and y on the film, pixel (0, 0) from 0 to 1; nan where the camera does not see it directly.
-    """
+    radius: (n,), the distance up to which the record is used, scene units.
+    seen: (n,), whether the camera uses the record; the others are only used by records.
+    irradiance: (n, bounces, 3), W/m², red, green and blue: column k − 1 is E_k, of light that has been reflected k times before.
+    pixel: (n, 2), x and y on the film; pixel (0, 0) is from 0 to 1; nan if the camera does not see the record directly."""
 
     position: NDArray[np.float64]
     normal: NDArray[np.float64]

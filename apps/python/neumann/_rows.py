@@ -8,12 +8,12 @@ from ._display import Described
 
 
 class Rows(Described):
-    """Arrays with a row for each of many things, under their names."""
+    """Arrays, as attributes, in which the same row is about the same thing."""
 
     def __init__(self, arrays: Mapping[str, NDArray[Any]]) -> None:
         vars(self).update(arrays)
         self._length = len(next(iter(arrays.values())))
 
     def __len__(self) -> int:
-        """How many rows there are."""
+        """The number of rows."""
         return self._length

@@ -1,4 +1,4 @@
-"""Scenes, and what can be done with them."""
+"""Scenes, and the commands on them."""
 
 import tempfile
 from hashlib import sha256
@@ -28,7 +28,7 @@ Path = Union[str, "PathLike[str]"]
 
 
 class Plan(List[Report]):
-    """The parts of the machinery, each a Report of part, kept, reason, and saves where it is left out."""
+    """The parts of the program, each a Report of part, kept, reason and, if it is left out, saves."""
 
     def __repr__(self) -> str:
         kept = sum(part.kept for part in self)
@@ -44,67 +44,65 @@ class Plan(List[Report]):
 class Scene(RayQueries, OnPatches):
     """A scene, as its files were when load() read them.
 
-    What its methods do with it they do as the commands of the same names; keywords are the options of the command, and are checked by it.
-    While they work, other threads of Python run, a line tells how far they are, and Ctrl-C ends them early: then KeyboardInterrupt is
-    raised, and its ``result`` is what there was until then, where there was something (in a shell or a notebook: ``sys.last_value.result``).
-    """
+    Methods do the same as the commands of the same names; their keywords are the options of the command, which checks them. While
+    they work, other threads of Python run, a line shows their progress, and Ctrl-C ends them early: KeyboardInterrupt is then
+    raised, and its ``result`` is the result until then, if there is any (in a shell or a notebook: ``sys.last_value.result``)."""
 
     def __init__(self, scene: "_neumann.Scene") -> None:
         self._scene = scene
 
     @property
     def path(self) -> str:
-        """The scene file."""
+        """The path of the scene file."""
         return self._scene.path
 
     @property
     def definitions(self) -> Dict[str, str]:
-        """What load() was given beside it."""
+        """The values for names of the scene file that load() was given."""
         return self._scene.definitions
 
     @property
     def hash(self) -> str:
-        """Of all files that it was read from."""
+        """A hash of all files of the scene."""
         return self._scene.hash
 
     @property
     def replaced(self) -> List[str]:
-        """What load(…, lenient=True) replaced or left out, each with its place; empty otherwise."""
+        """What load(…, lenient=True) replaced or left out, each with its place; empty without ``lenient``."""
         return self._scene.replaced
 
     @property
     def edits(self) -> Dict[str, str]:
-        """What edit() changed, by name, as a file would have it."""
+        """The changes of edit(), by name, with values as a scene file has them."""
         return dict(self._scene.edits)
 
     def edit(self, changes: Mapping[str, Any]) -> "Scene":
-        """A scene with other values of parameters, by names like those of Mitsuba's traverse(); this one stays as it is.
+        """Returns a scene with other values of parameters, by names like those of Mitsuba's traverse(); this one stays as it is.
 
             brighter = scene.edit({"lamp.emitter.radiance.value": [20.0, 20.0, 18.0], "white.reflectance.value": 0.8})
             moved = scene.edit({"sensor.to_world": neumann.look_at([0, 0, 4], [0, 0, 0])})
 
-        The first part of a name is the id of an object, in a dictionary its key, or "sensor" and the like for the only one without an id;
-        the last is a parameter, and between them are objects inside. "value" at the end may be left out, and a parameter that is missing
-        is added then. Values: numbers, texts, True and False, three numbers for a colour, a point or a vector, {"type": "rgb", …}, and
-        4 × 4 matrices. Raises InputError. Files of the scene are read again.
-        """
+        The first part of a name is the id of an object, in a dictionary its key, or for the only object of a kind without an id
+        that kind, such as "sensor"; the last is a parameter, and those between are objects inside. "value" at the end may be left
+        out; a missing parameter is then added. Values: numbers, texts, True and False, three numbers for a colour, a point or a
+        vector, {"type": "rgb", …}, and 4 × 4 matrices. Raises InputError. Files of the scene are read again."""
         changed = Scene(self._scene.edited(edits_of(changes)))
         warn(changed._scene.warnings)
         return changed
 
     @property
     def width(self) -> int:
-        """Of its pictures, pixels."""
+        """The width of pictures, in pixels."""
         return self._scene.width
 
     @property
     def height(self) -> int:
-        """Of its pictures, pixels."""
+        """The height of pictures, in pixels."""
         return self._scene.height
 
     @property
     def largest_albedo(self) -> Tuple[float, float, float]:
-        """Of any material, for each channel: a bound on ‖R‖ and so on how slowly the series falls."""
+        """The largest albedo of any material, by channel: a bound on ‖R‖, and so on how slowly the series falls."""
         return self._scene.largest_albedo
 
     @with_method_options
@@ -124,18 +122,18 @@ class Scene(RayQueries, OnPatches):
         live: bool = False,
         **of_method: Unpack[MethodOptions],
     ) -> BounceSeries:
-        """Renders the bounces K^i Le, their sums, and the rest: as ``neumann render``, with the same bits for the same seed.
+        """Renders the bounces K^i Le, their sums, and the rest, as ``neumann render`` does, with the same bits for the same seed.
 
-        bounces: the last bounce with a picture of its own; or tail: as many as it takes until the rest is below this part of the sum.
-        spp: samples a pixel; time: seconds; error: relative standard error of every bounce. Whichever comes first ends it; without
-        any it ends at 2% error or after 20 seconds, with error alone after ten minutes. memory: GiB that may be taken, half of the machine's
-        without it.
-        reference: the folder of an earlier render, for true errors in ``convergence``. seed; threads: all without it.
-        quiet: neither progress nor warnings. live: shows the explorer at once, which fills meanwhile: below the cell of a notebook on the same
-        machine, where the finished page takes its place; elsewhere in the browser.
+        bounces: the last bounce with a picture of its own; or tail: as many bounces as make the rest smaller than this part of the
+        sum. spp: samples a pixel; time: seconds; error: relative standard error of every bounce. The render ends at the first of
+        these that is reached; without any, at 2% error or after 20 seconds; with error alone, after ten minutes at most. memory:
+        GiB that may be taken, default half of the machine's. reference: the folder of an earlier render, for true errors in
+        ``convergence``. seed: of the samples. threads: default all. quiet: neither progress nor warnings. live: shows the explorer
+        at once, which is updated during the render: below the cell of a notebook on the same machine, where the finished page
+        replaces it; elsewhere in the browser.
 
-        Raises InputError for a wrong argument, with the command's own words, and RunError. What the command prints as a warning is a
-        NeumannWarning, and what is sick a HealthWarning.
+        Raises InputError for a wrong argument, with the command's own words, and RunError. What the command prints as a warning is
+        a NeumannWarning, and what it calls sick is a HealthWarning.
 
         The other keywords are the options of the methods:
         """
@@ -151,15 +149,15 @@ class Scene(RayQueries, OnPatches):
         return series
 
     def plan(self) -> Plan:
-        """What this scene needs of the machinery, what is left out, and why: as ``neumann plan``."""
+        """Returns which parts of the program this scene needs, which are left out, and why, as ``neumann plan`` does."""
         return Plan(_report.from_json(run(self._scene.plan())))
 
     def chain(self, bounce: int, *, states: int = 1000, seed: int = 0) -> Chain:
-        """The walk of one Markov chain of a bounce from 1 on, as method="metropolis" has many. Raises InputError."""
+        """One Markov chain of a bounce ≥ 1; method="metropolis" has many of them. Raises InputError."""
         return Chain(run(_neumann.chain(self._scene, bounce, states, seed)), bounce)
 
     def photons(self, paths: int = 100_000, *, bounces: int = 8, seed: int = 0) -> Photons:
-        """Photons of bounces 1 … bounces, from so many paths from the lights: points to look at. Raises InputError."""
+        """Photons of bounces 1 … bounces from this number of paths from the lights, for inspection. Raises InputError."""
         return Photons(run(_neumann.photons(self._scene, paths, bounces, seed)))
 
     def records(
@@ -171,7 +169,7 @@ class Scene(RayQueries, OnPatches):
         directions: Optional[int] = None,
         seed: int = 0,
     ) -> Records:
-        """The records of ``method="cache"``, filled once with E_1 … E_bounces: points to look at. Raises InputError."""
+        """The records of ``method="cache"``, filled once with E_1 … E_bounces, for inspection. Raises InputError."""
         given = {"records": records, "accuracy": accuracy, "directions": directions}
         options = [(name, str(value)) for name, value in given.items() if value is not None]
         return Records(run(_neumann.records(self._scene, bounces, options, seed)))
@@ -187,12 +185,11 @@ class Scene(RayQueries, OnPatches):
         threads: Optional[int] = None,
         quiet: bool = False,
     ) -> LightPictures:
-        """Its pictures under each block of a projector in the place of the camera, in place of its own lights, and the forward series under all
-        of them: what ``neumann unbounce`` renders.
+        """Renders the scene under each block of a projector at the camera, instead of the scene's own lights, and the forward
+        series under all blocks, as ``neumann unbounce`` does.
 
-        lights: (columns, rows) of blocks. width: of the pictures, pixels; the film's without it. spp: samples a pixel, for all
-        lights together. Raises InputError.
-        """
+        lights: (columns, rows) of blocks. width: of the pictures, in pixels; default that of the film. spp: samples a pixel, for
+        all lights together. Raises InputError."""
         columns, rows = lights
         job = _neumann.under_lights(self._scene, columns, rows, width, bounces, spp, seed, threads or 0)
         made: LightPictures = run(job, quiet, lambda result: LightPictures((columns, rows), result))
@@ -216,19 +213,18 @@ class Scene(RayQueries, OnPatches):
         output: Optional[Path] = None,
         quiet: bool = False,
     ) -> Study:
-        """Methods side by side, error against time, bounce by bounce: as ``neumann study``.
+        """Compares methods by their error against time, bounce by bounce, as ``neumann study`` does.
 
-        methods: as ["walk", "walk:direct=light:sampler=independent", "matrix"], or neumann.Walk(direct="light") and the like; without
-        them all that can do the scene. An estimator of your own stands beside them as "its_name()": a function of rays, with ``origin``
-        (n, 3), ``direction`` (n, 3), ``length`` (n,) and ``pixel`` (n, 2) of n camera rays, the last bounce N, and a numpy.random.Generator,
-        which returns samples of K^i Le along each ray, (n, N + 1, 3) in W·m⁻²·sr⁻¹. It may ask ``seen()``, ``intersect()``,
-        ``visible()`` and ``sample_lights()``, and must not start other work of this package. budgets: seconds of a
-        run, or samples: samples a pixel of one, growing. repeats: runs of each method at each budget, 16 without it, or as many as an
-        interval of the sum's RMSE of ± this part of itself takes. bounces: the last one that is looked at. error: relative RMSE, for the
-        time to it. crop: x, y, width and height of a part that the page shows of every method. reference: the folder of a render,
-        "values:1,0.5,…", or a method that makes one, of reference_spp samples a pixel. output: the folder for tables and page; without it
-        nothing is kept.
-        """
+        methods: such as ["walk", "walk:direct=light:sampler=independent", "matrix"], or neumann.Walk(direct="light"); default all
+        that can render the scene. An estimator of your own is one, too, called "its_name()": a function of camera rays, with
+        ``origin`` (n, 3), ``direction`` (n, 3), ``length`` (n,) and ``pixel`` (n, 2), of the last bounce N, and of a
+        numpy.random.Generator, which returns samples of K^i Le along each ray, (n, N + 1, 3) in W·m⁻²·sr⁻¹. It may call ``seen()``,
+        ``intersect()``, ``visible()`` and ``sample_lights()``, and must not start other work of this package. budgets: seconds of a
+        run; or samples: samples a pixel of a run; both growing. repeats: runs of each method at each budget, default 16; or
+        interval: as many as make the 95% interval of the sum's RMSE ± this part of it. bounces: the last one that is compared.
+        error: the relative RMSE to which the time is given. crop: x, y, width and height of a part that the page shows for every
+        method. reference: the folder of a render, "values:1,0.5,…", or a method that makes one, with reference_spp samples a pixel.
+        output: the folder for tables and page; by default nothing is kept."""
         own = {name_of(method): from_rays(method) for method in methods or () if callable(method)}
         if methods is not None:
             methods = [name_of(method) if callable(method) else method for method in methods]
@@ -253,13 +249,12 @@ class Scene(RayQueries, OnPatches):
 
 
 def load(path: Path, *, lenient: bool = False, **overrides: Any) -> Scene:
-    """Reads a scene file, or a scene that comes along by its name; ``overrides`` are values for the names that it defines:
-    ``load("furnace.xml", albedo=0.9)``, ``load("cornell-box", res=64)``.
+    """Reads a scene file, or by its name a scene that comes with the program; ``overrides`` are values for the names that it
+    defines: ``load("furnace.xml", albedo=0.9)``, ``load("cornell-box", res=64)``.
 
-    Raises InputError, 'file:line:column: what is wrong, what was expected', for what is not supported, unknown, misspelt or never read.
-    With ``lenient`` what is not known is no error: materials become grey and diffuse, lights, shapes and parameters are left out, each is
-    named in a warning and in ``replaced``, and pictures are marked.
-    """
+    Raises InputError, 'file:line:column: what is wrong, what was expected', for what is not supported, unknown, misspelt or never
+    used. With ``lenient``, unknown parts are no errors: materials become grey and diffuse; lights, shapes and parameters are left
+    out; each is named in a warning and in ``replaced``, and pictures are marked."""
     scene = _neumann.load(fsencode(path), definitions(overrides), lenient)
     warn(scene.warnings)
     return Scene(scene)
@@ -269,11 +264,11 @@ def load_dict(dictionary: Mapping[str, Any], *, name: str = "dict", lenient: boo
     """Takes a scene as a dictionary, as Mitsuba's load_dict does: {"type": "scene", "white": {"type": "diffuse", …}, …}.
 
     Values are numbers, texts, True and False, three numbers, 4 × 4 matrices or Mitsuba's transforms, {"type": "rgb", "value": …},
-    {"type": "spectrum", …}, {"type": "ref", "id": …} and other objects. A shape {"type": "mesh", "vertices": (n, 3), "faces": (m, 3)},
-    with "normals" (n, 3), "uv" (n, 2) and what a ply may have, is made of arrays. Files are named from the current folder.
+    {"type": "spectrum", …}, {"type": "ref", "id": …} and other objects. A shape {"type": "mesh", "vertices": (n, 3), "faces":
+    (m, 3)}, with "normals" (n, 3), "uv" (n, 2) and the parameters of a ply, is made of arrays. File names are relative to the
+    current folder.
 
-    name: of the scene, in messages and in run.json. Raises InputError, "dict#/path/of/keys: what is wrong, what was expected".
-    """
+    name: of the scene, in messages and in run.json. Raises InputError, "dict#/path/of/keys: what is wrong, what was expected"."""
     parsed = parse(dictionary, name)
     text = repr(parsed.root) + "".join(file + sha256(b"".join(a.tobytes() for a in arrays)).hexdigest() for file, arrays in parsed.meshes.items())
     scene = _neumann.load_elements(name, parsed.root, parsed.meshes, text, lenient)
