@@ -1,4 +1,4 @@
-"""Keywords as the options of a request, which checks them and says what is wrong."""
+"""Turns keywords into the options of a request, which checks them and reports what is wrong."""
 
 import difflib
 import inspect
@@ -13,19 +13,19 @@ _no_options = ("self", "quiet", "live", "of_method", "of_patches")
 
 
 def options(keywords: Dict[str, Any]) -> List[Tuple[str, List[str]]]:
-    """bounces=6, split=(2, 1) as names and texts. None and False are left out, and what is no option."""
+    """Turns bounces=6, split=(2, 1) into names and texts. Leaves out None, False, and keywords that are no options of a command."""
     given = {name: value for name, value in keywords.items() if value is not None and value is not False and name not in _no_options}
     return [(name.replace("_", "-"), texts(value)) for name, value in given.items()]
 
 
-# The keywords of functions that take some as ``**Unpack[…]``, by the function's name.
+# The keywords of the functions that take some as ``**Unpack[…]``, by the name of the function.
 _keywords: Dict[str, List[str]] = {}
 
 _Function = TypeVar("_Function", bound=Callable[..., Any])
 
 
 def with_keywords(table: Any) -> Callable[[_Function], _Function]:
-    """Names the keywords of a TypedDict, which a function takes as ``**Unpack[…]``, in its signature."""
+    """Makes a decorator that lists the keywords of a TypedDict, taken as ``**Unpack[…]``, in the signature of a function."""
 
     def named(function: _Function) -> _Function:
         own = inspect.signature(function)
@@ -40,13 +40,13 @@ def with_keywords(table: Any) -> Callable[[_Function], _Function]:
 
 
 def with_method_options(function: _Function) -> _Function:
-    """Names its ``**of_method`` in its signature and its help."""
+    """Decorates a function with ``**of_method``: lists the options of the methods in its signature and its help."""
     function.__doc__ = (function.__doc__ or "") + "\n".join(f"        {name}: {said}" for name, said in HELP.items())
     return with_keywords(MethodOptions)(function)
 
 
 def checked(given: Mapping[str, Any], table: Any, function: str) -> Dict[str, Any]:
-    """What is given. Raises TypeError for a name that is not in the TypedDict, as Python does for its own keywords, with the nearest."""
+    """Returns what is given. Raises TypeError for a name that is not in the TypedDict, and suggests the most similar keyword."""
     for name in given:
         if name in table.__annotations__:
             continue
@@ -59,7 +59,7 @@ def checked(given: Mapping[str, Any], table: Any, function: str) -> Dict[str, An
 
 
 def method_options(given: MethodOptions) -> Dict[str, Any]:
-    """In the order of the table. Raises TypeError for a name that is not in it."""
+    """Returns the options in the order of HELP. Raises TypeError for a name that is unknown or given twice."""
     all_given = checked(given, MethodOptions, "render")
     chosen = all_given.get("method")
     if isinstance(chosen, Method):
@@ -72,5 +72,5 @@ def method_options(given: MethodOptions) -> Dict[str, Any]:
 
 
 def definitions(overrides: Dict[str, Any]) -> Dict[str, str]:
-    """Values for the names that a scene file defines, as texts."""
+    """Returns the values for the names that a scene file defines, as texts."""
     return {name: text(value) for name, value in overrides.items()}

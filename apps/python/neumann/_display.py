@@ -1,4 +1,4 @@
-"""What a notebook shows: pictures at one exposure, tables, and what a result holds; elsewhere a browser shows it."""
+"""Shows results: a notebook shows pictures at one exposure, tables and the contents of a result; elsewhere the browser does."""
 
 import base64
 import html
@@ -13,7 +13,7 @@ import numpy as np
 from . import _neumann
 from ._progress import in_notebook
 
-small, large = 160, 480  # heights of pictures
+small, large = 160, 480  # heights of pictures in pixels
 
 
 def _figure(picture: Any, exposure: float, label: str, title: str, height: int) -> str:
@@ -26,13 +26,13 @@ def _figure(picture: Any, exposure: float, label: str, title: str, height: int) 
 
 
 def row(pictures: List[Tuple[Any, str, str]], exposure: float, height: int = small) -> str:
-    """HTML of pictures beside each other, each with its label and what is told of it."""
+    """Returns HTML of pictures beside each other, each with its label and its title, which the pointer shows."""
     figures = "".join(_figure(picture, exposure, label, title, height) for picture, label, title in pictures)
     return f'<div style="white-space: nowrap; overflow-x: auto">{figures}</div>'
 
 
 def as_table(names: List[str], rows: List[List[Any]], caption: str = "") -> str:
-    """An HTML table of texts and numbers."""
+    """Returns an HTML table of texts and numbers."""
 
     def cell(value: Any) -> str:
         text = f"{value:.4g}" if isinstance(value, float) else str(value)
@@ -58,19 +58,19 @@ def _brief(value: Any) -> str:
 
 
 def as_facts(facts: Mapping[str, Any], caption: str) -> str:
-    """An HTML table of names and what they hold: of arrays shape and range."""
+    """Returns an HTML table of names and values; of arrays it shows shape and range."""
     return as_table(["", ""], [[name, _brief(value)] for name, value in facts.items()], caption)
 
 
 class Described:
-    """A result that shows in a notebook what it holds."""
+    """A result whose contents a notebook shows."""
 
     def _repr_html_(self) -> str:
         return as_facts({name: value for name, value in vars(self).items() if not name.startswith("_")}, repr(self))
 
 
 def show(shown: str, alone: str) -> None:
-    """HTML below the cell of a notebook; elsewhere a whole page opens in the browser."""
+    """Shows ``shown`` below the cell of a notebook; elsewhere opens the page ``alone`` in the browser. Both are HTML."""
     if in_notebook():
         from IPython.display import HTML, display
 
@@ -82,7 +82,8 @@ def show(shown: str, alone: str) -> None:
 
 
 class Live:
-    """The page of a render that is under way: below the cell of a notebook, where it becomes the finished page; elsewhere in the browser."""
+    """The page of a render that is under way: below the cell of a notebook until the finished page replaces it, or in the browser.
+    """
 
     height = 800
 
@@ -108,5 +109,5 @@ class Live:
 
 
 def frame(page: str, height: int) -> str:
-    """A page inside of another."""
+    """Returns HTML that shows a page inside of another, ``height`` pixels high."""
     return f'<iframe srcdoc="{html.escape(page)}" style="width: 100%; height: {height}px; border: 0"></iframe>'

@@ -1,4 +1,4 @@
-"""Waits for work, shows how far it is, and answers Ctrl-C."""
+"""Waits for work, shows its progress, and reacts to Ctrl-C."""
 
 import html
 import shutil
@@ -24,7 +24,7 @@ class _Nothing:
 
 
 class _Terminal(_Nothing):
-    """One line on stderr that is written over again; nothing where that is not a terminal."""
+    """Shows progress in one line of stderr, which is overwritten; does nothing if stderr is not a terminal."""
 
     def __init__(self) -> None:
         self._shown = False
@@ -45,7 +45,7 @@ class _Terminal(_Nothing):
 
 
 class _Notebook(_Nothing):
-    """A bar below the cell, which goes away at the end."""
+    """Shows progress as a bar below the cell, which disappears at the end."""
 
     def __init__(self) -> None:
         self._handle: Any = None
@@ -69,14 +69,15 @@ class _Notebook(_Nothing):
 
 
 def in_notebook() -> bool:
-    """Whether a notebook shows what is printed."""
+    """Whether the program runs in a notebook, which shows what is printed."""
     ipython = sys.modules.get("IPython")
     shell = ipython.get_ipython() if ipython is not None else None
     return type(shell).__name__ == "ZMQInteractiveShell"
 
 
 def run(job: "_neumann.Job", quiet: bool = False, wrap: Callable[[Any], Any] = lambda made: made) -> Any:
-    """What a job makes, wrapped. Ctrl-C ends it early; what it has until then is `result` of the KeyboardInterrupt, if it has something."""
+    """Returns the result of a job, wrapped. Ctrl-C ends the job early; its result until then, if there is any, is ``result`` of the
+    KeyboardInterrupt."""
     line = _Nothing() if quiet else _Notebook() if in_notebook() else _Terminal()
     try:
         while not job.wait(0.1):
@@ -93,7 +94,7 @@ def run(job: "_neumann.Job", quiet: bool = False, wrap: Callable[[Any], Any] = l
             try:
                 stop.result = wrap(job.result())  # type: ignore[attr-defined]
             except Exception:
-                pass  # there is nothing yet
+                pass  # there is no result yet
         raise
     finally:
         line.clear()

@@ -1,4 +1,4 @@
-"""Figures with names: what the commands print as JSON and CSV."""
+"""Figures with names, as the commands print them in JSON and CSV."""
 
 import csv
 import io
@@ -11,19 +11,19 @@ from numpy.typing import NDArray
 
 from ._display import as_facts
 
-_most = 8  # names in a repr
+_most = 8  # names in a repr, at most
 
 
 class NeumannWarning(UserWarning):
-    """What the command prints as a warning: accepted, although it is odd."""
+    """A warning of the command: something that is accepted, although it is odd."""
 
 
 class HealthWarning(NeumannWarning):
-    """What the command prints as sick: samples that are no numbers, fireflies, energy that is missing."""
+    """A complaint of the command about a sick render: samples that are no numbers, fireflies, missing energy."""
 
 
 class Report(dict):
-    """A dict of which what has a name can also be had as an attribute: ``report.norms["inf"]``, ``report.spectral_radius``."""
+    """A dict whose entries can also be read as attributes: ``report.norms["inf"]``, ``report.spectral_radius``."""
 
     def __getattr__(self, name: str) -> Any:
         try:
@@ -58,8 +58,8 @@ def _column(texts: List[str], may_be_counts: bool) -> NDArray[Any]:
 
 
 def table(text: str, counts: Optional[Container[str]] = None) -> NDArray[Any]:
-    """A structured array of a CSV file: a row a line, a field a column; numbers where all of a column are, nan where there is nothing.
-    counts: the columns of integers; without it, those that hold nothing else."""
+    """Returns a CSV file as a structured array, with a row for each line: a column is of numbers if all its fields are, with nan
+    for empty ones. counts: the columns of integers; by default those that hold nothing else."""
     head, *lines = csv.reader(io.StringIO(text))
     columns = [_column([line[i] for line in lines], counts is None or name in counts) for i, name in enumerate(head)]
     result = np.empty(len(lines), dtype=[(name, column.dtype) for name, column in zip(head, columns)])
@@ -69,11 +69,11 @@ def table(text: str, counts: Optional[Container[str]] = None) -> NDArray[Any]:
 
 
 def rows(values: NDArray[np.float64], names: Iterable[str]) -> NDArray[Any]:
-    """A structured array of one whose columns have these names."""
+    """Returns a structured array of one whose columns have these names."""
     return np.array([tuple(row) for row in values], dtype=[(name, np.float64) for name in names])
 
 
 def warn(texts: Iterable[str], category: Type[Warning] = NeumannWarning, level: int = 3) -> None:
-    """Warns whoever called the function that calls this."""
+    """Warns the caller of the function that calls this one."""
     for text in texts:
         warnings.warn(text, category, stacklevel=level)
