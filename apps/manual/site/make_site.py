@@ -3,9 +3,10 @@
 
     ./run site [-o DIR] [--no-renders] [--no-lessons] [--fresh]
 
-The texts of the repository become pages: its Markdown files, the manual pages of commands, and the lessons. python3-markdown converts
-them. MkDocs, which is in Debian as well, is not used: MkDocs brings Bootstrap, jQuery and a search that needs a server, and reads one
-folder of Markdown. Commands, lessons, scenes and links out of that folder would need extensions as long as this program.
+The texts of the repository become pages: its Markdown files, the manual pages of commands, and the lessons. python3-markdown
+converts them. MkDocs, which is in Debian as well, is not used: MkDocs brings Bootstrap, jQuery and a search that needs a server,
+and reads one folder of Markdown. Commands, lessons, scenes and links out of that folder would need extensions as long as this
+program.
 """
 
 import argparse

@@ -50,7 +50,7 @@ class Study:
         return _report.rows(np.array(rows, dtype=float), [*names, "efficiency_with_bias"])
 
     def slope(self, method: str, bounce: Union[int, str] = "sum") -> Any:
-        """Returns d log RMSE / d log seconds: a Report of value and interval95, half of its 95% interval; None with too few budgets."""
+        """Returns d log RMSE / d log seconds: a Report of value and interval95, half of the interval; None with too few budgets."""
         return self._of(method, bounce).slope
 
     def __repr__(self) -> str:
