@@ -29,7 +29,6 @@ $("pictures-note").textContent = "Differences are theirs less ours, in luminance
   `In the last picture of a row they are in standard errors of a pixel; full colour is ${widest}.` +
   (packed.factor > 1 ? ` Each pixel here is the mean of ${packed.factor} × ${packed.factor}.` : "");
 
-// Pictures.
 const draw = (canvas, at) => fill(canvas, packed.width, packed.height, at);
 const of = (planes, p) => luminance(planes[p], planes[p + pixels], planes[p + 2 * pixels]);
 const whitest = planes => {

@@ -1,5 +1,5 @@
 "use strict";
-// From values to colours on the screen.
+// Maps the values of pixels to colours on the screen.
 
 const srgb = v => v <= 0.0031308 ? 12.92 * v : 1.055 * v ** (1 / 2.4) - 0.055;
 const toneCurves = {

@@ -1,7 +1,7 @@
 "use strict";
 // The figures under the picture: the values of a pixel, and the means of a rectangle.
 
-// The mean of a value that no sample met is 0, and half of its interval is then an upper bound.
+// A mean of 0 with an interval: no sample met any light, and half of the interval is an upper bound.
 const withInterval = (value, half) => !half ? number(value) : value === 0 && Number.isFinite(half) ? `0, at most ${number(half, 2)}` : `${number(value)} ± ${Number.isFinite(half) ? number(half, 2) : "unknown"}`;
 const channels = ["red", "green", "blue"];
 const figuresLine = text => {

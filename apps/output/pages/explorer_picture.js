@@ -49,8 +49,8 @@ const drawScale = () => {
   $("quantity").textContent = scale.quantity + (scale.log ? "; beyond the ends the colours of the ends" : "");
 };
 
-// The height in CSS pixels that is reserved for the figures below the picture, however many there are, so that the picture keeps
-// its size. It does not change while a rectangle is drawn.
+// The height in CSS pixels that the layout reserves for the figures below the picture, however many there are, so that the picture
+// keeps its size. The height stays the same while a rectangle is drawn.
 let room = 0;
 const figuresRoom = () => {
   if (!drag?.corner) room = state.slide ? 0 : state.rect ? 132 : 66;

@@ -1,7 +1,7 @@
 "use strict";
 // The plots beside the picture. Their datasets are computed from the state whenever it changes.
 
-// Marks the bounce that is shown by a vertical line.
+// Draws a vertical line through the bounce that is shown.
 const here = at => ({
   id: "here",
   beforeDatasetsDraw(chart) {
@@ -20,8 +20,8 @@ const here = at => ({
 });
 const radianceOf = s => `${s.importance ? "importance" : "radiance"} / ${s.unit}`;
 const positive = p => p.y > 0 && Number.isFinite(p.y);
-// A dataset of Chart.js. `all` keeps the points for the CSV file that a logarithmic axis cannot show: those with values that are
-// not positive.
+// A dataset of Chart.js. Its `data` are the points with positive values, which a logarithmic axis can show; `all` keeps all points,
+// for the CSV file.
 const line = (label, all, colour, more = {}) => ({ label, all, data: all.filter(positive), showLine: true, borderColor: colour, backgroundColor: colour, borderWidth: 1.6, pointRadius: 0, pointHitRadius: 4, pointStyle: "line", ...more });
 const dots = (label, data, colour, mark, more = {}) => line(label, data, colour, { pointStyle: mark, pointRadius: 4, pointHoverRadius: 6, pointHitRadius: 8, ...more });
 

@@ -46,8 +46,8 @@ class Series {
     return total;
   }
   // Returns the standard errors as a function of an index into mean(), or undefined where there are none. With `kind`
-  // "_discretisation" returns the error of patches as a function of the pixel: the largest over the channels and pixels of its
-  // block.
+  // "_discretisation" returns the error due to patches, photons or caches as a function of the pixel: the largest over the channels
+  // and pixels of its block.
   errors({ i, sum }, kind = "") {
     const found = this.planes[i].errors[(sum ? "sum" : "term") + kind];
     if (!found) return undefined;
