@@ -115,8 +115,8 @@ class BounceSeries:
 
     Pictures are float32, scene-linear RGB, as in the files; row 0 is on top. Radiance is in W·m⁻²·sr⁻¹, importance in m⁻²·sr⁻¹. A
     standard error is that of a pixel and channel; mean ± t · stderr is a 95% interval, with Student's t of
-    ``run.samples.degrees_of_freedom``. A standard error of inf is not known, as after a single replicate. Where the mean is 0 and the
-    standard error is not, no sample met any light, and t · stderr is an upper bound; where both are 0, the pixel is known to be
+    ``run.samples.degrees_of_freedom``. A standard error of inf is not known, as after a single replicate. Where the mean is 0 and
+    the standard error is not, no sample met any light, and t · stderr is an upper bound; where both are 0, the pixel is known to be
     dark. A pixel's stderr includes what few samples leave open, however well they agree; its spread does not, and is the one to use
     for means over pixels.
 
