@@ -83,11 +83,11 @@ const folds = async p => Object.fromEntries(await p.locator("details").evaluateA
 {
   const found = await folds(page), { plan, health } = json, leftOut = plan.filter(p => !p.kept);
   assert.ok(Object.values(found).every(f => !f.open));
-  assert.equal(found["The plan"].head, `The plan: ${leftOut.length} parts of the machinery left out, ${plan.length - leftOut.length} kept`);
+  assert.equal(found["The plan"].head, `The plan: ${leftOut.length} parts of the program left out, ${plan.length - leftOut.length} kept`);
   for (const { part } of plan) assert.ok(found["The plan"].text.includes(part), part);
   for (const { saves } of leftOut) assert.equal(found["The plan"].text.split(saves).length - 1, saves.startsWith("nothing") ? 1 : leftOut.filter(p => p.saves === saves).length, saves);
   assert.deepEqual(health.complaints, []);
-  assert.equal(found.Health.head, "Health: nothing to complain of");
+  assert.equal(found.Health.head, "Health: nothing wrong was found");
 }
 
 // It begins with direct light; the slider goes through the bounces and ends with the rest.

@@ -29,12 +29,12 @@ const drawPlots = () => {
 const drawNotes = () => {
   $("energy-note").textContent = "Mean over pixels and channels, with 95% intervals. " +
     (first.decay && all.length === 1 ? "The fit is to the later half of the bounces. " : "") +
-    (first.importance || all.length > 1 ? "" : first.run.bounces.some(b => b.tail_bound > 0) ? "The bound is of the largest radiance anywhere, from the largest albedo." : "There is no bound: the largest albedo is at least 1.");
+    (first.importance || all.length > 1 ? "" : first.run.bounces.some(b => b.tail_bound > 0) ? "The bound is on the largest radiance anywhere in the scene, and follows from the largest albedo." : "There is no bound: the largest albedo is at least 1.");
   $("energy").setAttribute("aria-label", "Mean of each bounce on a logarithmic axis; the same figures are in the table of bounces below");
   $("pixel").setAttribute("aria-label", "The chosen pixel's bounces in red, green and blue on a logarithmic axis");
   $("error").setAttribute("aria-label", "Relative standard error of the bounces and the sum against seconds");
   $("error-note").textContent = "Relative standard error √(Σ SE² / Σ mean²) of the bounce that is shown and of the sum; the other bounces in grey." +
-    (all.some(s => s.convergence.filter(row => Number.isFinite(row.relative_stderr_sum)).length === 1) ? " Where there is one point, errors at fewer samples were not taken." : "");
+    (all.some(s => s.convergence.filter(row => Number.isFinite(row.relative_stderr_sum)).length === 1) ? " A curve with one point: errors at fewer samples were not measured." : "");
 };
 
 // Writes the state into the caption and onto the controls.
@@ -129,7 +129,7 @@ const keys = [
   ["c  n", "false colour, noise, and back", ["c", "n"], key => { const to = key === "c" ? "false" : "noise"; set({ view: state.view === to ? "colour" : to }); }],
   ["t", "next tone curve", ["t"], () => next("curve")],
   ["[  ]", "exposure down, up", ["[", "]"], key => set({ stops: Math.max(-10, Math.min(20, state.stops + (key === "[" ? -.5 : .5))) })],
-  ["f", "each picture as bright as it takes", ["f"], () => set({ fit: !state.fit })],
+  ["f", "expose each picture by itself", ["f"], () => set({ fit: !state.fit })],
   ["+  −  0", "zoom in, out, whole picture", ["+", "=", "-", "0"], key => key === "0" ? zoomTo(1) : zoomAtPixel(state.zoom * (key === "-" ? 1 / 1.5 : 1.5))],
   ["w", "wipe between A and B", ["w"], () => set({ wipe: !state.wipe })],
   ["b", "the next B", ["b"], () => next("other")],
@@ -138,10 +138,10 @@ const keys = [
   ["l", "slides: the picture and its formula fill the screen; a click goes on, left of the middle back", ["l"], () => state.slide ? leaveSlides() : enterSlides()],
   ["d", "dark or white slides", ["d"], () => { if (state.slide) set({ slide: state.slide === "dark" ? "white" : "dark" }); }],
   ["a", "a rectangle from the chosen pixel on, by the arrow keys, until a is pressed again; with the mouse, Shift and a drag", ["a"], spanRect],
-  ["Esc", "leave the slides, or let go of the chosen pixel and the rectangle", ["Escape"], () => { stop(); if (state.slide) return leaveSlides(); if (document.activeElement === $("stage")) $("stage").blur(); set({ pixel: null, hover: null, rect: null, corner: null, picking: false }); }],
+  ["Esc", "leave the slides, or give up the chosen pixel and the rectangle", ["Escape"], () => { stop(); if (state.slide) return leaveSlides(); if (document.activeElement === $("stage")) $("stage").blur(); set({ pixel: null, hover: null, rect: null, corner: null, picking: false }); }],
   ...(all.some(pathsOf) ? [["j  k", "the next path of the pixel, the one before", ["j", "k"], key => stepPath(key === "j" ? 1 : -1)],
     ["o", "paths over the picture", ["o"], () => set({ pathShown: !state.pathShown })],
-    ["h", "rays that ask for light", ["h"], () => set({ asking: !state.asking })]] : []),
+    ["h", "shadow rays", ["h"], () => set({ asking: !state.asking })]] : []),
   ["i", "save the picture as PNG", ["i"], () => savePicture()],
   ["y", "copy the values of the chosen pixel", ["y"], () => copyPixel()],
   ["?", "these keys", ["?"], () => $("help").showModal()]];

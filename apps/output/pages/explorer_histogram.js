@@ -43,7 +43,7 @@ const drawHistogram = () => {
   placeTicks("histogram-ticks", histogram.log ? decadeTicks(histogram.low, histogram.high) : signedTicks(histogram.high));
   const told = [[histogram.zero * histogram.log, "are 0"], [histogram.negative * histogram.log, "are negative"], [histogram.beyond, "are beyond the ends"], [histogram.unknown, "are unknown"]].filter(([n]) => n > 0);
   const what = { noise: "relative standard error", difference: "difference", z: "difference / its standard error" }[state.view] ?? "luminance";
-  $("histogram-note").textContent = `${whole(series().pixels)} pixels by ${what}; a bar's height is the root of their number` + told.map(([n, where]) => `; ${whole(n)} ${where}`).join("") + ".";
+  $("histogram-note").textContent = `${whole(series().pixels)} pixels by ${what}; a bar's height is the square root of the number of its pixels` + told.map(([n, where]) => `; ${whole(n)} ${where}`).join("") + ".";
   $("range-low").disabled = !hasLow();
   $("range-high").disabled = !hasHigh();
   for (const [id, value] of [["range-low", image.low], ["range-high", image.high]]) {

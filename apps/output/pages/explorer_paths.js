@@ -73,14 +73,14 @@ const drawPlan = path => {
   }
   $("plan").setAttribute("viewBox", `0 0 ${width} ${height}`);
   $("plan").replaceChildren(...lines, ...marks);
-  $("plan-note").textContent = `From above, along ${seen_along}; what the camera looks at lies up. Paths from the camera are orange, those from a lamp blue; thin lines ask for light, and are dotted where something hides it. Over the picture what is hidden from the camera is dashed, and what lies behind it is left out.`;
+  $("plan-note").textContent = `From above, along ${seen_along}; the camera looks upwards in this plan. Paths from the camera are orange, those from a lamp blue; thin lines are shadow rays, dotted where something hides the light. Over the picture what is hidden from the camera is dashed, and what lies behind it is left out.`;
 };
 
 // The table of the path, with a row for each ray.
 const sizeOf = rgb => rgb.every(Number.isFinite) ? number(luminance(...rgb)) : "not finite";
 const shapeName = meets => meets.shape.replace(/^shape /, "").replace(/[^ ]*\//, "");
 const bounceName = i => i > series().last ? "rest" : `bounce ${i}`;
-const rayCells = (ray, k) => [String(k + 1), ray.ray, ray.meets ? shapeName(ray.meets) : ray.kind === "asks" ? (ray.found ? "nothing is in between" : "hidden, or nothing is there") : "nothing",
+const rayCells = (ray, k) => [String(k + 1), ray.ray, ray.meets ? shapeName(ray.meets) : ray.kind === "asks" ? (ray.found ? "nothing in between" : "hidden, or nothing there") : "nothing",
   ray.throughput ? sizeOf(ray.throughput) : ray.power ? sizeOf(ray.power) : "", ray.pdf === undefined ? "" : ray.pdf === "delta" ? "the only direction" : number(ray.pdf),
   (ray.brings ?? []).map(b => `${bounceName(b.bounce)}: ${sizeOf(b.value)}${b.film ? ` at ${number(b.film[0], 4)}, ${number(b.film[1], 4)}` : ""}`).join("; ")];
 const rayHead = ["", "ray", "meets", "throughput or power", "pdf / sr⁻¹", "brings"];
@@ -118,7 +118,7 @@ const pixelErrorSets = (history, s, i, sum) => {
 const drawHistory = ({ history, why_no_history }) => {
   $("history-part").hidden = !history;
   $("history-note").textContent = history
-    ? "The mean of the pixel's first samples, traced again, with 95% intervals from the spread of replicates; after the last one it is the picture's pixel. What few samples leave open, which the picture's errors count, is not in these."
+    ? "The mean of the pixel's first samples, traced again, with 95% intervals from the spread of replicates; after the last one it is the picture's pixel. The picture's own errors also count what so few samples could not show; these intervals do not."
     : `There is no error against samples of this pixel: ${why_no_history}.`;
   if (!history) return;
   const sets = historySets(history, state.i, state.sum), errors = pixelErrorSets(history, series(), state.i, state.sum);

@@ -42,6 +42,14 @@ const bouncesTable = s => {
   return wide(table(["bounce", `mean / ${s.unit}`, "± (95%)", "ratio", "bound on what follows", "rays", ...(discretised ? ["discretisation"] : []), ...(subset ? ["missing"] : [])],
     [...b.map((x, i) => row(i, x)), row("sum", s.run.sum), ...(rest.mean === undefined ? [] : [row("rest", { ...rest, ratio_estimate: undefined })])], []));
 };
+const bouncesNote = s => {
+  const b = s.run.bounces;
+  return "± is half of the 95% interval of the mean; ratio is the mean over that of the bounce before; the bound is on all bounces that follow." +
+    (b.some(x => x.unmet && x.interval95 !== null) ? " < x: no sample met any light, and x bounds what there may be." : "") +
+    (b.some(x => x.rare_large_samples) ? " At least: large samples are so rare that the interval may be too short." : "") +
+    (b.some(x => x.discretisation) ? " Discretisation is the error, as a mean, that patches, photons or records leave however many samples there are." : "") +
+    (b.some(x => x.missing) ? " Missing is the mean of the paths that this method does not make." : "");
+};
 // Tables of the plan: the parts that were left out and what that saves, and the parts that were kept. Parts whose omission saves
 // nothing are named in a sentence.
 const planTable = plan => {
@@ -84,7 +92,7 @@ const drawWarnings = () => {
   const lenient = all.filter(s => s.run.scene.replaced);
   $("lenient").hidden = lenient.length === 0;
   const warnings = [
-    ...all.flatMap(s => (s.run.health?.complaints ?? []).map(c => `${runName(s)}sick: ${c}`)),
+    ...all.flatMap(s => (s.run.health?.complaints ?? []).map(c => `${runName(s)}something is wrong: ${c}`)),
     ...lenient.map(s => `${runName(s)}this is not the scene as it is written: it was read with --lenient, and ${whole(s.run.scene.replaced.length)} thing${s.run.scene.replaced.length > 1 ? "s" : ""} in it ${s.run.scene.replaced.length > 1 ? "are" : "is"} replaced or left out`),
     ...all.flatMap(s => s.run.warnings.map(w => runName(s) + w.text + (w.count > 1 ? ` (${w.count} times)` : "")))
   ].map(text => element("p", text, "warning"));
@@ -97,11 +105,11 @@ const drawComparison = () => {
     data.comparison.pictures.map(p => [p.name, ...["rmse", ...(flip ? ["flip"] : []), "rmse_by_noise", "rel_mse", "mape", "smape", "max_error", "mean_difference"].map(k => number(p[k])),
       p.interval ? `${number(p.interval[0])} to ${number(p.interval[1])}` : "unknown"]), [])),
     element("p", `Over pixels and channels, as fractions; ε = ${data.comparison.epsilon}.` +
-      (data.comparison.pictures.some(p => p.interval_is_upper_bound) ? " Where pixels err together and a file does not hold the error of its mean, intervals are upper bounds." : ""), "note"));
+      (data.comparison.pictures.some(p => p.interval_is_upper_bound) ? " Where the errors of pixels depend on each other and a file does not hold the error of its mean, intervals are upper bounds." : ""), "note"));
 };
 const drawRun = s => {
   const tag = all.length > 1 ? ` of ${letter(s.index)}` : "", run = s.run, what = { command: run.command, ...run }, parts = [];
-  section(`The bounces${tag}`, bouncesTable(s));
+  section(`The bounces${tag}`, bouncesTable(s), element("p", bouncesNote(s), "note"));
   if (run.choice) {
     parts.push(element("p", `By ${run.choice.method}: ${run.choice.why}.`));
     if (run.choice.pilot) parts.push(folded("The pilot that chose the method", generic(run.choice.pilot)));
@@ -113,12 +121,12 @@ const drawRun = s => {
   }
   if (Array.isArray(run.plan)) {
     const kept = run.plan.filter(p => p.kept).length;
-    parts.push(folded(`The plan: ${run.plan.length - kept} parts of the machinery left out, ${kept} kept`, ...planTable(run.plan)));
+    parts.push(folded(`The plan: ${run.plan.length - kept} parts of the program left out, ${kept} kept`, ...planTable(run.plan)));
     delete what.plan;
   }
   if (run.health) {
     const { complaints = [], ...looked } = run.health;
-    parts.push(folded(`Health: ${complaints.length ? `${complaints.length} complaint${complaints.length > 1 ? "s" : ""}, on top of the page` : "nothing to complain of"}`, generic(looked)));
+    parts.push(folded(`Health: ${complaints.length ? `${complaints.length} complaint${complaints.length > 1 ? "s" : ""}, listed at the top of the page` : "nothing wrong was found"}`, generic(looked)));
   }
   for (const part of ["choice", "health", "bounces", "warnings", "ways"]) delete what[part];
   section(`The run${tag}`, ...parts, folded("All facts of run.json", generic(what)));
