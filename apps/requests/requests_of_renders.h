@@ -7,9 +7,9 @@
 namespace neumann {
 
 struct CompareRequest {
-    std::string a, b;               // two pictures or two folders; b is the reference
-    std::string output;             // the folder for a page of all folders, or empty
-    std::vector<std::string> more;  // further folders on the page
+    std::string a, b;                    // two pictures or two folders; b is the reference
+    std::string output = {};             // the folder for a page of all folders, or empty
+    std::vector<std::string> more = {};  // further folders on the page
     bool flip = false, json = false;
 };
 
