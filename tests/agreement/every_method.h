@@ -2,6 +2,7 @@
 #pragma once
 
 #include "operators/render/methods/render.h"
+#include "tests/physics/seed.h"
 
 #include <string>
 #include <vector>
@@ -29,6 +30,10 @@ inline std::vector<Method> every_method() {
     photon.photons = 4096;
     return {method::Walk{},  guided,  corrected, method::Light{}, method::Bidirectional{}, photon,
             method::Cache{}, patches, matrix,    gather,          method::Mixed{},         method::Metropolis{}};
+}
+
+inline Goal pictures(int bounces, std::uint64_t samples) {
+    return {.bounces = bounces, .samples = samples, .seed = physics::fixed_seed, .only_pictures = true};
 }
 
 // The mean over pixels and channels of a bounce, with what the method states of its bias or its discretisation.

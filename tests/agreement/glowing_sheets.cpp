@@ -63,10 +63,7 @@ INSTANTIATE_TEST_SUITE_P(Materials, GlowingSheetsSlow, testing::ValuesIn(sheets(
 TEST_P(GlowingSheetsSlow, CarryLightAsDarkOnesDo) {
     std::size_t number = GetParam().name.size();  // sheets begin with another method
     for (const Light light : {Light::sky, Light::sun, Light::lamp}) {
-        Goal goal;
-        goal.bounces = 2;
-        goal.only_pictures = true;
-        goal.samples = 1024;
+        Goal goal = agreement::pictures(2, 1024);
         goal.replicates = 16;  // with four, of fields, 5.5 standard errors are passed once in 700 times, with 16 once in 150,000
         std::uint64_t seed = physics::fixed_seed;  // of a method the same on every day
         const Scene dark = scene_with(GetParam(), light, 0.0), glows = scene_with(GetParam(), light, 1e-6);
@@ -103,11 +100,7 @@ TEST(GlowingSheetSlow, LetsTheSkyThrough) {
     for (const double opacity : {0.0, 0.25}) {
         const Bsdf bsdf = opacity == 0.0 ? Bsdf(Null()) : Bsdf(Mask(std::make_shared<const Bsdf>(Diffuse(Rgb(0.0))), Rgb(opacity)));
         const Scene scene = scene_with({"", bsdf, bsdf}, Light::sky, 1e-6);
-        Goal goal;
-        goal.bounces = 2;
-        goal.only_pictures = true;
-        goal.samples = 4096;
-        goal.seed = physics::fixed_seed;
+        Goal goal = agreement::pictures(2, 4096);
         for (const Method& method : agreement::every_method()) {
             SCOPED_TRACE(name_of(method));
             if (std::holds_alternative<method::Light>(method) || std::holds_alternative<method::Photon>(method)) continue;
@@ -133,11 +126,7 @@ TEST(GlowingSheetSlow, OfNothingDoesNotSpreadItsLight) {
         .near_clip = 1e-2};
     maker.parts.film = {32, 32, 0, 0, 32, 32};
     const Scene scene = maker.make();
-    Goal goal;
-    goal.bounces = 3;
-    goal.only_pictures = true;
-    goal.samples = 256;
-    goal.seed = physics::fixed_seed;
+    Goal goal = agreement::pictures(3, 256);
     const BounceSeries paths = render(scene, method::Bidirectional{}, goal);
     goal.samples = 16;
     for (const Method& method : {Method(method::Matrix{}), Method(method::Gather{})}) {

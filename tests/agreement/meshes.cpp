@@ -104,11 +104,7 @@ std::vector<Method> methods() {
 // 1000 seeds, if the means were normal.
 TEST_P(SmoothMeshesSlow, AreLitByEveryMethodAsByWalks) {
     const Scene scene = scene_of(GetParam().shapes);
-    Goal goal;
-    goal.bounces = 3;
-    goal.only_pictures = true;
-    goal.samples = 4096;
-    goal.seed = physics::fixed_seed;
+    Goal goal = agreement::pictures(3, 4096);
     const BounceSeries walk = render(scene, method::Walk{}, goal);
     goal.seed += 1;
     goal.samples = 256;

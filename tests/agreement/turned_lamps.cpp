@@ -71,11 +71,7 @@ TEST(TurnedLampsSlow, LightByEveryMethodAsByWalks) {
     const std::uint64_t scenes = asked ? std::strtoull(asked, nullptr, 10) : 8;
     for (std::uint64_t number = 0; number < scenes; ++number) {
         const Scene scene = scene_of(physics::fixed_seed + number);
-        Goal goal;
-        goal.bounces = 2;
-        goal.only_pictures = true;
-        goal.samples = 1024;
-        goal.seed = physics::fixed_seed;
+        Goal goal = agreement::pictures(2, 1024);
         const BounceSeries walk = render(scene, method::Walk{}, goal);
         goal.seed += 1;
         goal.samples = 128;
@@ -109,11 +105,7 @@ TEST(TurnedLampsSlow, DoNotLightThemselves) {
             .near_clip = 1e-3};
         maker.parts.film = {2, 2, 0, 0, 2, 2};
         const Scene scene = maker.make();
-        Goal goal;
-        goal.bounces = 2;
-        goal.only_pictures = true;
-        goal.samples = 64;
-        goal.seed = physics::fixed_seed;
+        Goal goal = agreement::pictures(2, 64);
         for (const Method& method : agreement::every_method()) {
             SCOPED_TRACE("scene " + std::to_string(number) + ", " + std::string(name_of(method)));
             if (std::holds_alternative<method::Light>(method)) continue;  // nearly all of its paths begin on the lamp

@@ -4,6 +4,7 @@
 #include "operators/render/from_fields/field_rendering.h"
 #include "operators/render/methods/method_options.h"
 #include "operators/render/methods/render.h"
+#include "tests/physics/today.h"
 
 #include <gtest/gtest.h>
 
@@ -23,10 +24,11 @@ Scene furnace() {
     return maker.make();
 }
 
-// Fields on patches are floats, but what pixels read of them is added up in doubles.
+// Fields on patches are floats, but what pixels read of them is added up in doubles. A third of the methods a day, here and below.
 TEST(ManySamplesSlow, OfFields) {
     const Scene scene = furnace();
     for (const FieldReading reading : {FieldReading::patches, FieldReading::matrix, FieldReading::gather}) {
+        if (!physics::is_of_today(static_cast<std::size_t>(reading))) continue;
         FieldSettings settings;
         settings.reading = reading;
         settings.bounces = 2;
@@ -51,7 +53,9 @@ TEST(ManySamplesSlow, OfFields) {
 // for most methods a thousand. 12 comparisons; |z| ≤ 4.5.
 TEST(ManySamplesSlow, OfPaths) {
     const Scene scene = read_scene(SCENES "/furnace/furnace.xml", {{"res", "1"}, {"albedo", "0.7"}});
+    std::size_t number = 0;
     for (const char* method : {"walk", "guided", "light", "bidirectional", "photon", "metropolis"}) {
+        if (!physics::is_of_today(number++)) continue;
         Goal goal;
         goal.bounces = 1;
         goal.samples = 1u << 22;

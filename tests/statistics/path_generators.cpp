@@ -5,6 +5,7 @@
 #include "operators/render/from_paths/splat_sampler.h"
 #include "tests/physics/paths_of.h"
 #include "tests/physics/seed.h"
+#include "tests/physics/today.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -68,10 +69,12 @@ double excess(const Estimate& a, const Estimate& b) {
 
 // Means of whole pictures of 128 replicates: at most 5 scenes × 2 methods × 5 bounces, and trees in place of paths, of 3 questions
 // for light and 2 walks from each first vertex, in 20 bounces more: 70 comparisons at |z| ≤ 4.5 with 127 degrees of freedom, false
-// alarm below 0.12%. Where the samples show an infinite variance there is no z.
+// alarm below 0.12%. Where the samples show an infinite variance there is no z. A third of the scenes a day.
 TEST(PathGeneratorsSlow, AgreeInTheMeanOfEveryBounce) {
     int compared = 0;
+    std::size_t number = 0;
     for (const Case& c : cases) {
+        if (!physics::is_of_today(number++)) continue;
         const Scene scene = scene_of(c);
         const auto find = [&](const std::shared_ptr<const PathMethod>& method, std::uint64_t seed, const Split& split = {}) {
             return render(scene,
@@ -97,7 +100,7 @@ TEST(PathGeneratorsSlow, AgreeInTheMeanOfEveryBounce) {
         const Result light = find(std::make_shared<const LightPaths>(), physics::fixed_seed + 1);
         for (std::size_t i = 0; i <= bounces; ++i) expect_agreement(light, walk, i, "light");
     }
-    EXPECT_GE(compared, 35);
+    EXPECT_GE(compared, physics::all_are_of_today() ? 35 : 5);
 }
 
 // The caustics of a glass ball, from both ends and by walks, which meet the lamp by way of the ball so rarely that fewer samples do
