@@ -1,6 +1,7 @@
 // blame accuses no right renderer, however it samples.
 #include "operators/experiments/blame/blame.h"
 #include "tests/blame/wrong_tracer.h"
+#include "tests/physics/today.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -55,7 +56,8 @@ std::vector<int> subset(int bits) {
 }
 
 // At most 2 of 200 right renderers are accused. If 1 of 50 were, it would be so few in 24 of 100 runs, and if 1 of 25 in 1 of 100
-// (binomial): the test sees a rate of 4%. Of 1 in 1000, as it is meant to be, more than 2 come by chance in 1 of 900.
+// (binomial): the test sees a rate of 4%. Of 1 in 1000, as it is meant to be, more than 2 come by chance in 1 of 900. A third of
+// them a day, of whom one may be: by chance more in 1 of 450.
 TEST(RightRenderersSlow, AreNotAccused) {
     struct Ours {
         int resolution;
@@ -70,6 +72,7 @@ TEST(RightRenderersSlow, AreNotAccused) {
         ExpectedPictures expected(room, ours.samples, 0.0, seed + static_cast<std::uint64_t>(number));
         expected.keep_all();
         for (int i = 0; i < ours.pictures; ++i, ++number) {
+            if (!physics::is_of_today(static_cast<std::size_t>(number) / 4)) continue;
             // 4 and 16 samples, and now and then 64.
             const Case c{i % 7 == 6   ? 64
                          : i % 2 == 0 ? 4
@@ -81,8 +84,8 @@ TEST(RightRenderersSlow, AreNotAccused) {
         }
     }
     std::cout << counts.wrong << " of " << counts.all << " accused, " << counts.unclear << " unclear\n";
-    EXPECT_EQ(counts.all, 200);
-    EXPECT_LE(counts.wrong, 2);
+    EXPECT_GE(counts.all, physics::all_are_of_today() ? 200 : 60);
+    EXPECT_LE(counts.wrong, physics::all_are_of_today() ? 2 : 1);
 }
 
 }  // namespace neumann::right_renderers_test
