@@ -73,12 +73,8 @@ TEST(RightRenderersSlow, AreNotAccused) {
         expected.keep_all();
         for (int i = 0; i < ours.pictures; ++i, ++number) {
             if (!physics::is_of_today(static_cast<std::size_t>(number) / 4)) continue;
-            // 4 and 16 samples, and now and then 64.
-            const Case c{i % 7 == 6   ? 64
-                         : i % 2 == 0 ? 4
-                                      : 16,
-                         {static_cast<Lamps>(i % 3), i % 5 < 3, i % 4 == 3, i % 8 == 2},
-                         subset(1 + i % 15)};
+            const int samples = i % 7 == 6 ? 64 : i % 2 == 0 ? 4 : 16;
+            const Case c{samples, {static_cast<Lamps>(i % 3), i % 5 < 3, i % 4 == 3, i % 8 == 2}, subset(1 + i % 15)};
             counts.add(blame(expected, pictures(room, c, seed + static_cast<std::uint64_t>(number)), Counting::pbrt),
                        fmt::format("{}² at {} samples of ours, {}", ours.resolution, ours.samples, words(c)));
         }
