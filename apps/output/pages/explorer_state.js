@@ -39,7 +39,7 @@ const others = [
   ...(all.length > 2 ? all.map((s, r) => [`run-${r}`, `the same of ${letter(r)}`, () => [s, same(s)]]) : []),
   ["next", "the next bounce", () => [series(), { i: state.i + 1, sum: state.sum }]],
   ["previous", "the bounce before", () => [series(), { i: state.i - 1, sum: state.sum }]],
-  ["sum", "the sum, if a bounce is shown, and the reverse", () => [series(), { i: state.i, sum: !state.sum }]],
+  ["sum", "its sum, or its bounce", () => [series(), { i: state.i, sum: !state.sum }]],
   ...all.flatMap((s, r) => [...Array(s.last + 1 + (s.hasRest ? 1 : 0)).keys()].flatMap(i => [false, true].map(sum => ({ i, sum })))
     .filter(ref => s.has(ref) && !(ref.sum && ref.i === 0))
     .map(ref => [`${r}-${ref.sum ? "sum" : "term"}-${ref.i}`, s.title(ref) + names[r], () => [s, ref]]))];
