@@ -38,15 +38,26 @@ struct FirstVertex {
     std::uint32_t points = 1;      // number of these walks that also read the errors of a shared point
     double clamp = 100.0;          // c, in units of 1 / (area of all sides with fields)
     double survival = 1.0;         // probability with which Russian roulette keeps walks that go on instead of reading
+    // Whether paths that do not go on from it still cast a ray, whose hit counts as direct light.
+    bool others_cast_rays = false;
+};
+
+// Whether a path goes on from its first diffuse vertex, and the part of the paths like it that do. The others end there with
+// their light samples: direct light may need more samples than what comes after it.
+struct GoingOn {
+    bool goes_on = true;
+    double share = 1.0;
 };
 
 struct CorrectedWalker : Walker {
-    std::uint32_t path = 0;   // the camera sample, or the shared point, to which it belongs
-    bool is_split = false;    // it has passed its first diffuse vertex
-    bool reads = false;       // it left a diffuse vertex, so that it may read fields at the next one
-    double directions = 1.0;  // walks for each light sample at its last vertex
-    double clamp = 0.0;       // c at that vertex, per scene unit squared
-    double survival = 1.0;    // FirstVertex::survival if that was its first diffuse vertex, otherwise 1
+    std::uint32_t path = 0;     // the camera sample, or the shared point, to which it belongs
+    bool is_split = false;      // it has passed its first diffuse vertex
+    bool reads = false;         // it left a diffuse vertex, so that it may read fields at the next one
+    bool ends = false;          // its ray is only for the light that it hits
+    double directions = 1.0;    // walks for each light sample at its last vertex
+    double part_of_hits = 1.0;  // the weight of light that is hit there, relative to β
+    double clamp = 0.0;         // c at that vertex, per scene unit squared
+    double survival = 1.0;      // FirstVertex::survival if that was its first diffuse vertex, otherwise 1
     // The number of walks from its last vertex for which it reads a shared point (0: it reads none); the point, and the
     // weight of its errors.
     double walks_per_point = 1.0;
@@ -80,13 +91,13 @@ public:
 
     // Samples the terms 1 … N and the rest from walkers that stand at their first vertices (x and wo are set, β is 1),
     // and adds them to the quantities of their paths. light_sampler(path, l) and sampler_of(path, g) return the
-    // samplers of the l-th light sample and of the g-th walk from the first diffuse vertex.
-    template <class LightSamplers, class Samplers, class Observer = NoObserver>
-    void operator()(CorrectedWalkers& walkers, const LightSamplers& light_sampler, const Samplers& sampler_of, TermSamples& out,
-                    const Observer& observer = {}) const;
+    // samplers of the l-th light sample and of the g-th walk from the first diffuse vertex; going_on(path) a GoingOn.
+    template <class LightSamplers, class Samplers, class WhichGoOn, class Observer = NoObserver>
+    void operator()(CorrectedWalkers& walkers, const LightSamplers& light_sampler, const Samplers& sampler_of,
+                    const WhichGoOn& going_on, TermSamples& out, const Observer& observer = {}) const;
 
 private:
-    template <class LightSamplers, class Samplers, class Observer>
+    template <class LightSamplers, class Samplers, class WhichGoOn, class Observer>
     struct Steps;
 
     std::size_t quantities() const { return static_cast<std::size_t>(settings_.bounces) + 2; }
@@ -96,7 +107,7 @@ private:
     bool choose_direction(CorrectedWalker& w, int wanted, Sampler& sampler) const {
         const SurfaceSide side = scene_.materials.side(w.x, w.wo);
         if (!side.bsdf) return false;
-        w.reads = fields_ && std::holds_alternative<Diffuse>(*side.bsdf);
+        w.reads = fields_ && !w.ends && std::holds_alternative<Diffuse>(*side.bsdf);
         const GuidedContinuation::Vertex vertex = w.reads && wanted > 0
                                                       ? GuidedContinuation::Vertex(tables_->at(w.x, w.wo, wanted), side.p.frame)
                                                       : GuidedContinuation::Vertex();
@@ -143,11 +154,12 @@ private:
     double of_area_;
 };
 
-template <class LightSamplers, class Samplers, class Observer>
+template <class LightSamplers, class Samplers, class WhichGoOn, class Observer>
 struct CorrectedWalk::Steps : WalkSteps<CorrectedWalkers> {
     const CorrectedWalk& walk;
     const LightSamplers& light_sampler;
     const Samplers& sampler_of;
+    const WhichGoOn& going_on;
     TermSamples& out;
     const Observer& observer;
 
@@ -175,6 +187,10 @@ struct CorrectedWalk::Steps : WalkSteps<CorrectedWalkers> {
                                         [&](std::uint32_t i, const Rgb& light) { find(i, q, light); });
         }
     }
+    // The directions of a path from its first diffuse vertex, on average.
+    double directions_of_path(double share) const {
+        return share * walk.first_.directions + (walk.first_.others_cast_rays ? 1.0 - share : 0.0);
+    }
     // R samples the lights. At first diffuse vertices it does so more often and splits the walk.
     void sample_lights_and_split(int bounce, std::size_t q) {
         const FirstVertex& first = walk.first_;
@@ -184,11 +200,13 @@ struct CorrectedWalk::Steps : WalkSteps<CorrectedWalkers> {
             CorrectedWalker& w = walkers.walker[i];
             const Bsdf* bsdf = w.is_split || bounce > settings.bounces ? nullptr : scene.materials.side(w.x, w.wo).bsdf;
             const bool splits = bsdf && std::holds_alternative<Diffuse>(*bsdf);
-            w.directions = splits ? static_cast<double>(first.directions) / first.lights : 1.0;
+            const double directions = splits ? directions_of_path(going_on(w.path).share) : 1.0;
+            w.directions = splits ? directions / first.lights : 1.0;
+            w.part_of_hits = 1.0;
             w.clamp = walk.points_ ? (splits ? first.clamp : later_clamp) * walk.of_area_ : 0.0;
             w.survival = splits ? first.survival : 1.0;
             w.walks_per_point = 1.0;
-            if (splits) w.beta /= static_cast<double>(first.directions);
+            w.beta /= directions;
             (splits ? walkers.splitting : walkers.single).push_back(i);
         }
         if (!walkers.single.empty()) {
@@ -201,7 +219,17 @@ struct CorrectedWalk::Steps : WalkSteps<CorrectedWalkers> {
             for (std::uint32_t l = 0; l < first.lights; ++l)
                 sample_lights(bounce, q, [&](std::uint32_t i) -> Sampler& { return light_sampler(i, l); });
             for (const std::uint32_t i : walkers.splitting) {
-                walkers.walker[i].is_split = true;
+                CorrectedWalker& w = walkers.walker[i];
+                const GoingOn which = going_on(w.path);
+                w.is_split = true;
+                w.ends = !which.goes_on;
+                if (w.ends) {
+                    w.walks_per_point = 0.0;
+                    if (first.others_cast_rays) walkers.single.push_back(i);
+                    continue;
+                }
+                w.part_of_hits = which.share * first.directions / directions_of_path(which.share);
+                w.beta /= w.part_of_hits;
                 for (std::uint32_t g = 0; g < first.directions; ++g) {
                     walkers.single.push_back(static_cast<std::uint32_t>(walkers.walker.size()));
                     walkers.walker.push_back(walkers.walker[i]);
@@ -241,19 +269,21 @@ struct CorrectedWalk::Steps : WalkSteps<CorrectedWalkers> {
         return true;
     }
     double directions_per_light_sample(const CorrectedWalker& w) const { return w.directions; }
+    double part_of_hits(const CorrectedWalker& w) const { return w.part_of_hits; }
     // Reads the fields at z, or goes on.
     bool goes_on(CorrectedWalker& w, std::uint32_t i, int bounce) {
-        return !settings.ending().is_last(bounce) &&
+        return !w.ends && !settings.ending().is_last(bounce) &&
                walk.goes_on(w, walkers.samplers[i], walkers.fields,
                             [&](std::size_t k, const Rgb& x) { find_later(i, bounce, k, x); });
     }
 };
 
-template <class LightSamplers, class Samplers, class Observer>
+template <class LightSamplers, class Samplers, class WhichGoOn, class Observer>
 NEUMANN_FLAT void CorrectedWalk::operator()(CorrectedWalkers& walkers, const LightSamplers& light_sampler,
-                                            const Samplers& sampler_of, TermSamples& out, const Observer& observer) const {
-    Steps<LightSamplers, Samplers, Observer> steps{
-        {scene_, direct_, settings_, walkers, out.rays}, *this, light_sampler, sampler_of, out, observer};
+                                            const Samplers& sampler_of, const WhichGoOn& going_on, TermSamples& out,
+                                            const Observer& observer) const {
+    Steps<LightSamplers, Samplers, WhichGoOn, Observer> steps{
+        {scene_, direct_, settings_, walkers, out.rays}, *this, light_sampler, sampler_of, going_on, out, observer};
     camera_walk(walkers.samplers, walkers, steps, out.given_up, observer);
 }
 

@@ -100,7 +100,7 @@ SharedPoints PointMaker::make_set(std::uint64_t replicate, std::size_t set, cons
                     work.walk[i].start(replicate * samples_.directions + g);
                     return work.walk[i];
                 },
-                out);
+                [](std::uint32_t) { return GoingOn(); }, out);
             for (std::uint32_t i = 0; i < points_at_once; ++i) {
                 const SharedPoints::Point& p = points[first + i];
                 Rgb* const errors = errors_of_points.data() + (first + i) * (quantities - 1);

@@ -43,6 +43,8 @@ struct WalkSteps {
     // Whether the light of what a walk has hit counts; and the number of directions for each light sample where it came from.
     bool counts_hit(const Walker& w, std::uint32_t) const { return direct.counts_what_is_hit() || w.pdf == delta_pdf; }
     double directions_per_light_sample(const Walker&) const { return 1.0; }
+    // The weight of light that is hit, relative to that of what is found later.
+    double part_of_hits(const Walker&) const { return 1.0; }
     // Whether the walk goes on from the point that it has hit, which is not infinite.
     bool goes_on(Walker&, std::uint32_t, int /*bounce*/) const { return true; }
 };
@@ -67,7 +69,7 @@ void camera_walk(Samplers& samplers, AnyWalkers& walkers, Steps& steps, std::uin
                     const Rgb emitted = emitters.emitted(w.x, w.wo);
                     if (!is_black(emitted))
                         steps.find(i, q,
-                                   w.beta * emitted *
+                                   w.beta * emitted * steps.part_of_hits(w) *
                                        steps.direct.weight_of_hit(w.pdf * steps.directions_per_light_sample(w), w.from, w.w, w.x));
                 }
                 return !w.x.is_infinite() && steps.goes_on(w, i, bounce);

@@ -10,9 +10,6 @@
 
 namespace neumann {
 
-// The settings of the first vertex of each camera sample.
-inline constexpr FirstVertex at_pixel{.lights = 1, .directions = 4, .points = 1, .clamp = 100.0};
-
 struct CorrectedSampler::Workspace {
     explicit Workspace(std::size_t quantities) : average(quantities), tally(quantities) {}
     PathGroup group;
@@ -26,7 +23,7 @@ struct CorrectedSampler::Workspace {
 template <class Observer>
 void CorrectedSampler::trace_group(std::uint64_t replicate, const PixelGroup& pixels, const SharedPoints* points, Workspace& work,
                                    const Observer& observer) const {
-    const std::uint32_t size = pixels.size, samples = pixels.paths();
+    const std::uint32_t size = pixels.size, samples = pixels.paths(), going_on = size_of_going_on(size);
     const std::size_t Q = settings_.quantities();
     PathGroup& group = work.group;
     group.rays.resize(samples);
@@ -38,7 +35,8 @@ void CorrectedSampler::trace_group(std::uint64_t replicate, const PixelGroup& pi
         const Pixel pixel = pixel_of(scene_->film, number);
         if (i % size == 0) {
             work.camera.push_back(Sampler(settings_.sampler, layout_.net(size), settings_.seed, number));
-            work.directions.push_back(Sampler(settings_.sampler, direction_nets_[static_cast<std::size_t>(std::countr_zero(size))],
+            work.directions.push_back(Sampler(settings_.sampler,
+                                              direction_nets_[static_cast<std::size_t>(std::countr_zero(std::max(going_on, 1u)))],
                                               settings_.seed ^ direction_stream, number));
         } else {
             work.camera.push_back(work.camera.back());
@@ -58,13 +56,16 @@ void CorrectedSampler::trace_group(std::uint64_t replicate, const PixelGroup& pi
                             observer.finds(i, 0, Le);
                         });
     work.walkers.samplers = work.camera;
-    const CorrectedWalk corrected(*scene_, *direct_, settings_.walk, *approximation_, points, at_pixel);
+    const CorrectedWalk corrected(*scene_, *direct_, settings_.walk, *approximation_, points, first_);
     corrected(
         work.walkers, [&](std::uint32_t i, std::uint32_t) -> Sampler& { return work.walkers.samplers[i]; },
         [&](std::uint32_t i, std::uint32_t g) -> const Sampler& {
             Sampler& sampler = work.directions[i / size];
-            sampler.start((replicate * size + i % size) * at_pixel.directions + g);
+            sampler.start((replicate * going_on + i % size) * first_.directions + g);
             return sampler;
+        },
+        [&](std::uint32_t path) {
+            return GoingOn{path % size<going_on, going_on> 0 ? static_cast<double>(going_on) / size : share_of_none};
         },
         out, observer);
     work.tally.given_up += out.given_up;

@@ -15,7 +15,7 @@ constexpr double fewest_points = 256.0, most_points = 4096.0;
 
 std::uint32_t choose_points(double pixels, const SamplingSettings& settings) {
     const auto rays = [](const FirstVertex& v) { return static_cast<double>(v.lights + v.directions + v.points); };
-    const double of_pixel = settings.replicate_size * (1.0 + rays(at_pixel)), of_point = rays(at_point),
+    const double of_pixel = settings.replicate_size * (1.0 + rays(CorrectedAllocation().first)), of_point = rays(at_point),
                  sets = std::clamp(settings.walk.bounces, 1, 8);
     return std::bit_floor(static_cast<std::uint32_t>(
         std::clamp(CorrectedSampler::share_of_points * pixels * of_pixel / (of_point * sets), fewest_points, most_points)));
@@ -35,9 +35,14 @@ CorrectedSampler::CorrectedSampler(const Scene& scene, const SamplingSettings& s
     points_ = std::make_shared<const PointMaker>(
         scene, *direct_, settings_.walk, *approximation_, settings_.sampler, settings_.seed,
         choose_points(settings_.pixels_of_shared > 0 ? settings_.pixels_of_shared : layout_.pixels(), settings_), at_point);
+    if (const auto* parts = dynamic_cast<const CorrectedAllocation*>(settings.allocation.get())) {
+        first_ = parts->first;
+        going_on_ = parts->going_on;
+    }
     std::uint32_t largest = 1;
-    for (std::uint32_t pixel = 0; pixel < layout_.pixels(); ++pixel) largest = std::max(largest, layout_.size(pixel));
-    for (std::uint32_t size = 1; size <= largest; size *= 2) direction_nets_.emplace_back(size * at_pixel.directions);
+    for (std::uint32_t pixel = 0; pixel < layout_.pixels(); ++pixel)
+        largest = std::max(largest, size_of_going_on(layout_.size(pixel)));
+    for (std::uint32_t size = 1; size <= largest; size *= 2) direction_nets_.emplace_back(size * first_.directions);
 }
 
 bool CorrectedSampler::sample_picture(std::uint64_t replicate, std::vector<Rgb>& picture, SampleRanges& ranges, Tally& tally,
@@ -64,12 +69,16 @@ std::optional<std::uint64_t> CorrectedSampler::own_samples(std::uint64_t replica
         points = points_->make(replicate, rays, given_up, watch);
         if (!points) return std::nullopt;
     }
-    const bool done = for_groups(layout_, watch, [&](const PixelGroup& pixels) {
+    return own_samples(replicate, points ? &*points : nullptr, each, watch) ? std::optional(rays) : std::nullopt;
+}
+
+bool CorrectedSampler::own_samples(std::uint64_t replicate, const SharedPoints* points, const OwnSamples& each,
+                                   const Watch& watch) const {
+    return for_groups(layout_, watch, [&](const PixelGroup& pixels) {
         Workspace work(settings_.quantities());
-        trace_group(replicate, pixels, points ? &*points : nullptr, work);
+        trace_group(replicate, pixels, points, work);
         each(pixels, work.group.samples, work.tally.rays);
     });
-    return done ? std::optional(rays) : std::nullopt;
 }
 
 }  // namespace neumann

@@ -4,6 +4,7 @@
 
 #include "core/sampling/sampler.h"
 #include "operators/paths/corrected/approximation.h"
+#include "operators/paths/corrected/corrected_walk.h"
 #include "operators/paths/walk/observer.h"
 #include "operators/render/from_paths/path_sampler.h"
 
@@ -13,9 +14,16 @@
 
 namespace neumann {
 
+// The numbers of all parts of a pixel's samples (corrected_allocation.h).
+struct CorrectedAllocation : Allocation {
+    FirstVertex first{.lights = 1, .directions = 4, .points = 1, .clamp = 100.0};
+    // How many samples of a pixel go on from their first diffuse vertex, as an exponent like those of Allocation; nothing: all.
+    std::optional<std::int8_t> going_on = {};
+};
+
 class DirectLightSampler;
 class PointMaker;
-struct SharedPoints;
+class SharedPoints;
 
 // Walks from the camera that read approximate fields on patches at the second diffuse surface, whose errors are carried by points
 // that all pixels share.
@@ -25,6 +33,11 @@ public:
     const Approximation& approximation() const { return *approximation_; }
 
     std::shared_ptr<const PathSampler> sampler(const Scene& scene, const SamplingSettings& settings) const override;
+    std::shared_ptr<const Allocation> allocate(const Scene& scene, const SamplingSettings& settings, LeastError least,
+                                               const Watch& watch) const override;
+    // About the rays that allocate() casts for a film of this size, and those of a sample without it.
+    static double rays_of_allocation(double pixels);
+    static constexpr double rays_of_sample = 7.0;
     bool is_prepared() const override { return true; }
     std::uint64_t rays() const override { return approximation_->rays(); }
     double walks_worth(int, std::span<const double>) const override { return 2.0; }
@@ -50,6 +63,8 @@ public:
     std::vector<Rgb> retrace(std::uint64_t replicate, std::uint32_t first, PathObserver& observer) const override;
     std::unique_ptr<const PathsToInspect> to_inspect() const override;
 
+    // The samples of all pixels with these points, or without any if null. False if `watch` stopped it.
+    bool own_samples(std::uint64_t replicate, const SharedPoints* points, const OwnSamples& each, const Watch& watch) const;
     // The points that the pixels of a replicate share; nothing if no surface is diffuse.
     std::optional<SharedPoints> points_of(std::uint64_t replicate) const;
     // As above, with these points, or without any if null.
@@ -60,6 +75,11 @@ private:
     struct Workspace;
     // The stream of the walks from first diffuse vertices, whose random numbers are independent of the others.
     static constexpr std::uint64_t direction_stream = 0x676174686572ull;
+    // If no sample goes on, as in a pilot for direct light, rays that would have met a light have next to no weight.
+    static constexpr double share_of_none = 1.0 / 1024.0;
+    std::uint32_t size_of_going_on(std::uint32_t size) const {
+        return going_on_ ? std::min(Allocation::size_of(settings_.replicate_size, *going_on_), size) : size;
+    }
     template <class Observer = NoObserver>
     void trace_group(std::uint64_t replicate, const PixelGroup& pixels, const SharedPoints* points, Workspace& work,
                      const Observer& observer = {}) const;
@@ -67,7 +87,9 @@ private:
     std::shared_ptr<const Approximation> approximation_;
     std::shared_ptr<const DirectLightSampler> direct_;
     std::shared_ptr<const PointMaker> points_;  // refers to *direct_ and to *approximation_
-    std::vector<SobolPoints> direction_nets_;   // for pixels with 1, 2, 4, … samples
+    FirstVertex first_ = CorrectedAllocation().first;
+    std::optional<std::int8_t> going_on_;
+    std::vector<SobolPoints> direction_nets_;  // for pixels with 1, 2, 4, … samples that go on
 };
 
 }  // namespace neumann

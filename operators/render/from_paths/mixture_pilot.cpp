@@ -258,7 +258,7 @@ Mixture mix(const Scene& scene, const Scene& view, const std::vector<MixtureCand
         const auto& [name, own, price] = *chosen.all.front().candidate;
         mixture.weights.assign(mixture.bounces * B, 1.0);
         mixture.parts.push_back({name, own.method, own.walk.left_out});
-        if (!own.method->has_even_samples()) mixture.parts.front().allocation = allocate(scene, own, least, watch);
+        if (!own.method->has_even_samples()) mixture.parts.front().allocation = own.method->allocate(scene, own, least, watch);
         if (const auto& allocation = mixture.parts.front().allocation) mixture.rays += allocation->rays;
         return mixture;
     }

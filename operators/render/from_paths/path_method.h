@@ -4,6 +4,8 @@
 
 #include "core/base/warnings.h"
 #include "core/scene/scene.h"
+#include "operators/render/from_paths/least_error.h"
+#include "operators/watch.h"
 
 #include <cstdint>
 #include <memory>
@@ -15,6 +17,7 @@
 namespace neumann {
 
 class PathSampler;
+struct Allocation;
 struct SamplingSettings;
 
 // The set of paths that a method makes.
@@ -50,6 +53,9 @@ public:
 
     // Keeps a reference to the scene.
     virtual std::shared_ptr<const PathSampler> sampler(const Scene& scene, const SamplingSettings& settings) const = 0;
+    // Distributes samples over pixels by a pilot (allocation.h). Throws Stopped if `watch` stops it.
+    virtual std::shared_ptr<const Allocation> allocate(const Scene& scene, const SamplingSettings& settings, LeastError least,
+                                                       const Watch& watch) const;
     // The number of pictures of a sample: the terms 0 … N and the rest.
     virtual std::size_t pictures(int bounces) const { return static_cast<std::size_t>(bounces) + 2; }
 

@@ -14,9 +14,14 @@
 namespace neumann {
 
 struct Allocation {
+    virtual ~Allocation() = default;  // a method may distribute the parts of its samples, too
+
     static constexpr std::int8_t none = -128;  // exponent of a pixel without samples
-    std::vector<std::int8_t> exponents;        // k of all pixels of the crop, row by row
+    std::vector<std::int8_t> exponents = {};   // k of all pixels of the crop, row by row
     std::uint64_t rays = 0;                    // cast to find the exponents
+
+    Allocation() = default;
+    explicit Allocation(std::vector<std::int8_t> exponents, std::uint64_t rays = 0) : exponents(std::move(exponents)), rays(rays) {}
 
     // `size` · 2^k, at least 1; 0 for none.
     static std::uint32_t size_of(std::uint32_t size, std::int8_t exponent) {

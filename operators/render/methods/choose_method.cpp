@@ -319,7 +319,8 @@ MethodChoice choose(const method::Auto& open, const Scene& scene, const Goal& go
     const bool fields_can = !goal.colors && !goal.part && !(goal.samples && goal.relative_error);
     if (open.bias_allowed && fields_can)
         allow_bias(choice, works[taken], pilots, small, goal, affordable, goal_of_trial(goal, bounces, size), prepared, of_pilots);
-    if (samples >= fewest_to_distribute) set_adaptive(choice.method, LeastError::of_all);
+    if (samples >= fewest_to_distribute && !std::holds_alternative<method::Corrected>(choice.method))
+        set_adaptive(choice.method, LeastError::of_all);
     return choice;
 }
 

@@ -26,6 +26,14 @@ std::vector<Corrected> Corrected::coarser() const {
     return all;
 }
 
+// If the pilot takes at most a twelfth of the rays.
+void Corrected::expect_samples(double samples, const Film& film) {
+    constexpr double part_of_rays = 1.0 / 12.0, walks_of_sample = 2.0;
+    const double pixels = static_cast<double>(film.crop_width) * film.crop_height,
+                 rays = samples / walks_of_sample * pixels * CorrectedPaths::rays_of_sample;
+    if (!adaptive && CorrectedPaths::rays_of_allocation(pixels) <= part_of_rays * rays) adaptive = LeastError::of_all;
+}
+
 std::shared_ptr<const PathMethod> Corrected::prepare(const Preparing& in) const {
     ApproximationSettings wanted{
         .bounces = in.prepared.bounces(in.settings.walk.bounces), .seed = in.prepared.seed(), .memory = in.memory};

@@ -60,6 +60,8 @@ struct PathOptions {
     void expect_sense(bool /*lights*/) const {}
     void expect(const Scene&) const {}
     void expect_room(const Film&, std::uint32_t /*replicate_size*/) const {}
+    // Decides about what pays only from a number of samples on, expected in each pixel where a walk would be one.
+    void expect_samples(double /*samples*/, const Film&) {}
     // Sets the options that were left open to the values that were taken.
     void complete(const SamplingSettings&, const Film&) {}
 
@@ -132,9 +134,10 @@ struct Corrected : PathOptions {
     static constexpr bool shows_fields_first = true;
     std::optional<std::size_t> patches = {};
     std::optional<std::uint32_t> directions = {};
-    std::optional<LeastError> adaptive = {};  // as in Walk
+    std::optional<LeastError> adaptive = {};  // as in Walk; all, if there are samples enough
 
     std::optional<FieldNeeds> needs() const;
+    void expect_samples(double samples, const Film& film);
     std::shared_ptr<const PathMethod> prepare(const Preparing& preparing) const;
     std::vector<Corrected> coarser() const;  // as in Guided
     void complete(const SamplingSettings& settings, const Film& film);

@@ -99,6 +99,17 @@ Method method_in_time(const Method& method, int bounces, const RenderJob& job) {
     return fits;
 }
 
+// The samples of a pixel that the goal allows, if each took as long as a walk; 0 if that is not known beforehand.
+double expected_samples(int bounces, const RenderJob& job) {
+    if (job.saving.from || job.goal.only_pictures) return 0.0;
+    const Goal limits = with_default_limits(job.goal);
+    if (limits.relative_error) return 0.0;
+    if (limits.samples) return static_cast<double>(*limits.samples);
+    const Film& film = job.scene.film;
+    return std::max(limits.seconds.value_or(0.0) - job.seconds_gone(), 0.0) /
+           (static_cast<double>(film.crop_width) * film.crop_height * job.pilot().seconds_per_walk(bounces));
+}
+
 }  // namespace
 
 bool set_up(const Method& method, const RenderJob& job, SamplingSettings& settings) {
@@ -126,7 +137,12 @@ PreparedPaths prepare_paths(const Method& requested, const RenderJob& job) {
     SamplingSettings settings = sampling_settings(requested, job.scene, job.plan, goal.seed);
     settings.colors = goal.colors;
     settings.walk.bounces = choose_bounces(job);
-    const Method method = method_in_time(requested, settings.walk.bounces, job);
+    Method method = method_in_time(requested, settings.walk.bounces, job);
+    std::visit(
+        [&]<class M>(M& m) {
+            if constexpr (MakesPaths<M>) m.expect_samples(expected_samples(settings.walk.bounces, job), job.scene.film);
+        },
+        method);
 
     SamplingGoal to_reach = sampling_goal(goal);
     if (goal.samples && *goal.samples != *to_reach.samples)

@@ -79,7 +79,7 @@ bool set_up(const Method& method, const Scene& scene, int bounces, double memory
     if (may_do_without) return true;
     const std::optional<LeastError> least = adaptive_of(method);
     try {
-        if (least) settings.allocation = allocate(scene, settings, *least, watch);
+        if (least) settings.allocation = settings.method->allocate(scene, settings, *least, watch);
     } catch (const Stopped&) {
     }
     return least || settings.method->is_prepared();
