@@ -37,7 +37,7 @@ LIMITS = {
     "metropolis": 8,
     "bidirectional": 40,
     "photon": 19,
-    "lines of core, operators and apps": 99137,
+    "lines of core, operators and apps": 99141,
     "lines of tests": 45495,
 }
 

@@ -104,7 +104,7 @@ public:
         const CorrectedSampler sampler = sampler_of(pixels, std::move(allocation), samples_of_parts);
         return measure(pixels, replicates_of_parts, [&](std::uint64_t replicate, const OwnSamples& add) {
             std::optional<SharedPoints>& shared = points_[replicate];
-            if (!shared) shared = sampler.points_of(replicate);
+            if (!shared) shared = sampler.points_of(replicate, rays_, watch_);
             return sampler.own_samples(replicate, shared ? &*shared : nullptr, add, watch_);
         });
     }

@@ -56,6 +56,7 @@ void CorrectedSampler::trace_group(std::uint64_t replicate, const PixelGroup& pi
                             observer.finds(i, 0, Le);
                         });
     work.walkers.samplers = work.camera;
+    const double share = going_on > 0 ? static_cast<double>(going_on) / size : share_of_none;
     const CorrectedWalk corrected(*scene_, *direct_, settings_.walk, *approximation_, points, first_);
     corrected(
         work.walkers, [&](std::uint32_t i, std::uint32_t) -> Sampler& { return work.walkers.samplers[i]; },
@@ -65,7 +66,7 @@ void CorrectedSampler::trace_group(std::uint64_t replicate, const PixelGroup& pi
             return sampler;
         },
         [&](std::uint32_t path) {
-            return GoingOn{path % size<going_on, going_on> 0 ? static_cast<double>(going_on) / size : share_of_none};
+            return GoingOn{path % size < going_on, share};
         },
         out, observer);
     work.tally.given_up += out.given_up;

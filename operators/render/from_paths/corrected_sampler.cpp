@@ -63,13 +63,15 @@ bool CorrectedSampler::sample_picture(std::uint64_t replicate, std::vector<Rgb>&
 
 std::optional<std::uint64_t> CorrectedSampler::own_samples(std::uint64_t replicate, const OwnSamples& each,
                                                            const Watch& watch) const {
-    std::uint64_t rays = 0, given_up = 0;
-    std::optional<SharedPoints> points;
-    if (points_->sets() > 0) {
-        points = points_->make(replicate, rays, given_up, watch);
-        if (!points) return std::nullopt;
-    }
+    std::uint64_t rays = 0;
+    const std::optional<SharedPoints> points = points_of(replicate, rays, watch);
+    if (!points && points_->sets() > 0) return std::nullopt;
     return own_samples(replicate, points ? &*points : nullptr, each, watch) ? std::optional(rays) : std::nullopt;
+}
+
+std::optional<SharedPoints> CorrectedSampler::points_of(std::uint64_t replicate, std::uint64_t& rays, const Watch& watch) const {
+    std::uint64_t given_up = 0;
+    return points_->make(replicate, rays, given_up, watch);
 }
 
 bool CorrectedSampler::own_samples(std::uint64_t replicate, const SharedPoints* points, const OwnSamples& each,

@@ -14,7 +14,7 @@
 
 namespace neumann {
 
-// The numbers of all parts of a pixel's samples (corrected_allocation.h).
+// The numbers of all parts of a pixel's samples (corrected_allocation.cpp).
 struct CorrectedAllocation : Allocation {
     FirstVertex first{.lights = 1, .directions = 4, .points = 1, .clamp = 100.0};
     // How many samples of a pixel go on from their first diffuse vertex, as an exponent like those of Allocation; nothing: all.
@@ -65,8 +65,9 @@ public:
 
     // The samples of all pixels with these points, or without any if null. False if `watch` stopped it.
     bool own_samples(std::uint64_t replicate, const SharedPoints* points, const OwnSamples& each, const Watch& watch) const;
-    // The points that the pixels of a replicate share; nothing if no surface is diffuse.
+    // The points that the pixels of a replicate share; nothing if no surface is diffuse, or if `watch` stopped it. Adds to `rays`.
     std::optional<SharedPoints> points_of(std::uint64_t replicate) const;
+    std::optional<SharedPoints> points_of(std::uint64_t replicate, std::uint64_t& rays, const Watch& watch) const;
     // As above, with these points, or without any if null.
     std::vector<Rgb> retrace(std::uint64_t replicate, std::uint32_t first, const SharedPoints* points,
                              PathObserver& observer) const;

@@ -105,8 +105,8 @@ std::vector<Rgb> SplatSampler::retrace(std::uint64_t replicate, std::uint32_t fi
 }
 
 std::optional<SharedPoints> CorrectedSampler::points_of(std::uint64_t replicate) const {
-    std::uint64_t rays = 0, given_up = 0;
-    return points_->make(replicate, rays, given_up, {});
+    std::uint64_t rays = 0;
+    return points_of(replicate, rays, {});
 }
 
 std::vector<Rgb> CorrectedSampler::retrace(std::uint64_t replicate, std::uint32_t first, PathObserver& observer) const {
