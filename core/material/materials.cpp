@@ -32,4 +32,8 @@ Rgb Materials::largest_basic_albedo() const {
     return largest(bsdfs_, sides_of_shape_, [](const Bsdf& b) { return neumann::largest_basic_albedo(b); });
 }
 
+bool has_specular(const Materials& materials) {
+    return std::ranges::any_of(materials.bsdfs(), [](const Bsdf& b) { return lobe(b).kind == Lobe::Kind::specular; });
+}
+
 }  // namespace neumann

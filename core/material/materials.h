@@ -61,4 +61,7 @@ private:
     std::vector<char> is_flat_;  // by shape
 };
 
+// Whether some material has a delta lobe.
+bool has_specular(const Materials& materials);
+
 }  // namespace neumann

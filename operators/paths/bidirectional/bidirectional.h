@@ -9,9 +9,9 @@
 #pragma once
 
 #include "core/sampling/sampler.h"
-#include "operators/paths/bidirectional/film_splats.h"
 #include "operators/paths/bidirectional/joining_edges.h"
 #include "operators/paths/bidirectional/made_ways.h"
+#include "operators/paths/light/film_splats.h"
 #include "operators/paths/walk/walk_settings.h"
 
 #include <algorithm>

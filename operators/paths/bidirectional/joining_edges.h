@@ -2,7 +2,7 @@
 // contribute if they are visible.
 #pragma once
 
-#include "operators/paths/bidirectional/light_walk.h"
+#include "operators/paths/light/light_walk.h"
 #include "operators/paths/walk/shadow_rays.h"
 
 namespace neumann {

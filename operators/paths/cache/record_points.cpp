@@ -1,7 +1,7 @@
 #include "operators/paths/cache/record_points.h"
 
-#include "operators/paths/bidirectional/film_splats.h"
 #include "operators/paths/cache/record_tracer.h"
+#include "operators/paths/light/film_splats.h"
 
 namespace neumann {
 

@@ -1,7 +1,7 @@
 // The paths of a pass of photons, traced in groups: PhotonTracer::trace_group().
 #pragma once
 
-#include "operators/paths/bidirectional/light_walk.h"
+#include "operators/paths/light/light_walk.h"
 #include "operators/paths/photons/photon_tracer.h"
 
 #include <algorithm>

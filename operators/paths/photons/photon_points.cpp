@@ -1,6 +1,6 @@
 #include "operators/paths/photons/photon_points.h"
 
-#include "operators/paths/bidirectional/film_splats.h"
+#include "operators/paths/light/film_splats.h"
 #include "operators/paths/photons/photon_paths.h"
 
 #include <oneapi/tbb/parallel_for.h>

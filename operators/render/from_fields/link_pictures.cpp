@@ -1,7 +1,7 @@
 #include "operators/render/from_fields/link_pictures.h"
 
 #include "operators/fields/matrix/link_light.h"
-#include "operators/paths/bidirectional/film_splats.h"
+#include "operators/paths/light/film_splats.h"
 
 #include <algorithm>
 #include <vector>

@@ -1,7 +1,7 @@
 // The shares of a contribution at a position on the film: one for each pixel whose filter covers the position.
 #pragma once
 
-#include "operators/paths/bidirectional/film_splats.h"
+#include "operators/paths/light/film_splats.h"
 #include "operators/render/from_paths/tally.h"
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 #include "operators/render/from_paths/metropolis_sampler.h"
 
+#include "operators/in_order.h"
 #include "operators/paths/metropolis/starts_of_group.h"
 #include "operators/render/from_paths/film_shares.h"
-#include "operators/render/from_paths/in_order.h"
 #include "operators/render/from_paths/metropolis_group.h"
 
 #include <oneapi/tbb/blocked_range.h>

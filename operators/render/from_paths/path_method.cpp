@@ -6,11 +6,6 @@
 
 namespace neumann {
 
-bool has_specular(const Materials& materials) {
-    const auto& bsdfs = materials.bsdfs();
-    return std::any_of(bsdfs.begin(), bsdfs.end(), [](const Bsdf& b) { return lobe(b).kind == Lobe::Kind::specular; });
-}
-
 std::shared_ptr<const Allocation> PathMethod::allocate(const Scene& scene, const SamplingSettings& settings, LeastError least,
                                                        const Watch& watch) const {
     return neumann::allocate(scene, settings, least, watch);

@@ -44,9 +44,6 @@ struct TwoRadii {
     bool difference_is_of_kernel;
 };
 
-// Whether some material has a delta lobe.
-bool has_specular(const Materials& materials);
-
 class PathMethod {
 public:
     virtual ~PathMethod() = default;

@@ -1,7 +1,7 @@
 #include "operators/render/from_paths/splat_sampler.h"
 
+#include "operators/in_order.h"
 #include "operators/render/from_paths/film_shares.h"
-#include "operators/render/from_paths/in_order.h"
 #include "operators/render/from_paths/splat_group.h"
 
 #include <oneapi/tbb/enumerable_thread_specific.h>

@@ -5,7 +5,7 @@
 
 #include "core/sampling/sampler.h"
 #include "operators/paths/bidirectional/bidirectional.h"
-#include "operators/paths/bidirectional/light_tracing.h"
+#include "operators/paths/light/light_tracing.h"
 #include "operators/render/from_paths/path_sampler.h"
 
 namespace neumann {

@@ -1,7 +1,7 @@
 // Connects vertices of paths from lights to the lens, and adds their contributions to the film.
 #pragma once
 
-#include "operators/paths/bidirectional/light_walk.h"
+#include "operators/paths/light/light_walk.h"
 #include "operators/paths/walk/visibility.h"
 
 #include <vector>

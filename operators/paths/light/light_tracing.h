@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/base/hot.h"
-#include "operators/paths/bidirectional/film_splats.h"
+#include "operators/paths/light/film_splats.h"
 
 #include <algorithm>
 

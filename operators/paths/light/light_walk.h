@@ -6,7 +6,7 @@
 #include "core/emitter/emission_sampler.h"
 #include "core/emitter/light_sampler.h"
 #include "core/scene/scene.h"
-#include "operators/paths/bidirectional/path_weights.h"
+#include "operators/paths/light/path_weights.h"
 #include "operators/paths/walk/ending.h"
 #include "operators/paths/walk/observer.h"
 #include "operators/paths/walk/path_end.h"
