@@ -12,20 +12,21 @@
 // g is unbounded where surfaces meet, so points carry only its part below c, min(g, c), and walks carry the rest: at z
 // a walk goes on with probability 1 − c/g, and what it finds later replaces f_k(z). A walk goes on in any case from
 // surfaces that are not diffuse, to surfaces without fields, and to those whose shading normals look away from it, as g
-// is 0 there: where there are no fields, it is the plain walk (operators/paths/walk/walk.h). All is linear in f and in
+// is 0 there: where there are no fields, it is the plain walk (operators/paths/walk/walk.h). Where paths from the lamps make
+// caustics (caustics.h), a second list of points carries these, and walks leave them out. All is linear in f and in
 // the points' errors, so that only the variance depends on the quality of either.
 #pragma once
 
 #include "core/base/hot.h"
 #include "operators/paths/corrected/approximation.h"
-#include "operators/paths/corrected/diffuse_sides.h"
+#include "operators/paths/corrected/caustics.h"
 #include "operators/paths/corrected/shared_points.h"
 #include "operators/paths/walk/camera_walk.h"
-#include "operators/paths/walk/coupling.h"
 #include "operators/paths/walk/guided_continuation.h"
 #include "operators/paths/walk/term_samples.h"
 
 #include <algorithm>
+#include <array>
 #include <span>
 #include <vector>
 
@@ -49,11 +50,29 @@ struct GoingOn {
     double share = 1.0;
 };
 
+// The points that walks join.
+struct JoinedPoints {
+    const SharedPoints* errors = nullptr;    // of the fields
+    const SharedPoints* caustics = nullptr;  // that no field has (caustics.h)
+};
+
+// The caustics that walks leave to paths from the lamps: at their first vertices, if these are diffuse, up to this bounce; and, if
+// the lamps also make what caustics light, at their second diffuse vertices.
+struct CausticsLeft {
+    const Caustics* to = nullptr;
+    int bounces = 0;
+    bool at_second = false;
+    const DirectionTables* tables = nullptr;  // for the vertices whose caustics walks make
+};
+
 struct CorrectedWalker : Walker {
-    std::uint32_t path = 0;     // the camera sample, or the shared point, to which it belongs
-    bool is_split = false;      // it has passed its first diffuse vertex
-    bool reads = false;         // it left a diffuse vertex, so that it may read fields at the next one
-    bool ends = false;          // its ray is only for the light that it hits
+    std::uint32_t path = 0;  // the camera sample, or the shared point, to which it belongs
+    bool is_split = false;   // it has passed its first diffuse vertex
+    bool reads = false;      // it left a diffuse vertex, so that it may read fields at the next one
+    bool ends = false;       // its ray is only for the light that it hits
+    // What has reflected it since the camera: D S … or D (S …) D S …, where paths from the lamps bring the light that S meets
+    // (caustics.h).
+    enum class ToCaustics : std::uint8_t { no, from_first, from_second } to_caustics = ToCaustics::no;
     double directions = 1.0;    // walks for each light sample at its last vertex
     double part_of_hits = 1.0;  // the weight of light that is hit there, relative to β
     double clamp = 0.0;         // c at that vertex, per scene unit squared
@@ -61,13 +80,20 @@ struct CorrectedWalker : Walker {
     // The number of walks from its last vertex for which it reads a shared point (0: it reads none); the point, and the
     // weight of its errors.
     double walks_per_point = 1.0;
-    std::uint32_t point = 0;
-    Rgb point_weight{0.0};
+    struct Joined {
+        std::uint32_t point = 0;
+        Rgb weight{0.0};
+    };
+    std::array<Joined, 2> joined;  // in the order of JoinedPoints
 };
 
 struct CorrectedWalkers : Together<CorrectedWalker> {
     std::vector<Sampler> samplers;               // one for each walker
-    std::vector<std::uint32_t> with_shadow_ray;  // walkers whose light sample or shared point needs a shadow ray
+    std::vector<std::uint32_t> with_shadow_ray;  // walkers whose light sample needs a shadow ray
+    struct Joins {
+        std::uint32_t walker, list;
+    };
+    std::vector<Joins> joins;  // of points that need a shadow ray
     std::vector<std::uint32_t> single, splitting;
     std::vector<float> fields;
 };
@@ -77,15 +103,16 @@ public:
     // c of walks after their first diffuse vertex, in units of 1 / area.
     static constexpr double later_clamp = 3.0;
 
-    // Keeps references. `fields` may be without fields. `points` is null if walks carry all of the error.
+    // Keeps references. `fields` may be without fields. Without points of errors walks carry all of the error.
     CorrectedWalk(const Scene& scene, const DirectLightSampler& direct, const WalkSettings& settings, const Approximation& fields,
-                  const SharedPoints* points, const FirstVertex& first)
+                  const JoinedPoints& points, const CausticsLeft& caustics, const FirstVertex& first)
         : scene_(scene),
           direct_(direct),
           settings_(settings),
           fields_(fields.fields()),
           tables_(fields.tables()),
-          points_(points),
+          points_{points.errors, points.caustics},
+          caustics_(caustics),
           first_(first),
           of_area_(fields.area() > 0.0 ? 1.0 / fields.area() : 0.0) {}
 
@@ -103,40 +130,52 @@ private:
     std::size_t quantities() const { return static_cast<std::size_t>(settings_.bounces) + 2; }
     bool has_rest() const { return settings_.rest_probability > 0.0; }
     // R samples the next direction, from what the fields tell of the light that arrives (guided/direction_tables.h),
-    // and chooses the shared point to be read. `wanted` is the number of later bounces that have pictures.
-    bool choose_direction(CorrectedWalker& w, int wanted, Sampler& sampler) const {
+    // and chooses the shared point to be read.
+    bool choose_direction(CorrectedWalker& w, int bounce, Sampler& sampler) const {
         const SurfaceSide side = scene_.materials.side(w.x, w.wo);
         if (!side.bsdf) return false;
-        w.reads = fields_ && !w.ends && std::holds_alternative<Diffuse>(*side.bsdf);
+        const bool is_diffuse = std::holds_alternative<Diffuse>(*side.bsdf);
+        const int wanted = settings_.bounces - bounce;  // later bounces that have pictures
+        w.reads = fields_ && !w.ends && is_diffuse;
+        const bool makes_caustics =
+            caustics_.tables && after_vertex(w.to_caustics, bounce, is_diffuse, false) == CorrectedWalker::ToCaustics::no;
+        const DirectionTables* const tables = makes_caustics ? caustics_.tables : tables_;
         const GuidedContinuation::Vertex vertex = w.reads && wanted > 0
-                                                      ? GuidedContinuation::Vertex(tables_->at(w.x, w.wo, wanted), side.p.frame)
+                                                      ? GuidedContinuation::Vertex(tables->at(w.x, w.wo, wanted), side.p.frame)
                                                       : GuidedContinuation::Vertex();
         const BsdfSample sampled = vertex.sample(side, side.p.frame.to_local(w.wo), sampler);
-        w.point_weight = Rgb(0.0);
-        if (w.reads && points_ && w.walks_per_point > 0.0) {
-            const SharedPoints::Chosen chosen = points_->choose(w.x.position, side.p.frame.n, w.clamp, sampler.next());
-            w.point = chosen.point;
-            const SharedPoints::Point& y = (*points_)[chosen.point];
+        for (std::size_t list = 0; list < points_.size(); ++list) {
+            CorrectedWalker::Joined& joined = w.joined[list];
+            joined.weight = Rgb(0.0);
+            if (!w.reads || !points_[list] || w.walks_per_point == 0.0 || w.clamp == 0.0) continue;
+            const SharedPoints::Chosen chosen = points_[list]->choose(w.x.position, side.p.frame.n, w.clamp, sampler.next());
+            joined.point = chosen.point;
+            const SharedPoints::Point& y = (*points_[list])[chosen.point];
             if (glm::dot(y.shading, w.x.position - y.y.position) > 0.0)
-                w.point_weight = w.beta * std::get<Diffuse>(*side.bsdf).reflectance(side.p) * (w.walks_per_point * chosen.weight);
+                joined.weight = w.beta * std::get<Diffuse>(*side.bsdf).reflectance(side.p) * (w.walks_per_point * chosen.weight);
         }
+        if (caustics_.to) w.to_caustics = after_vertex(w.to_caustics, bounce, is_diffuse, sampled.pdf == delta_pdf);
         w.leave(side, sampled);
         return true;
+    }
+    CorrectedWalker::ToCaustics after_vertex(CorrectedWalker::ToCaustics before, int bounce, bool is_diffuse, bool by_delta) const {
+        using enum CorrectedWalker::ToCaustics;
+        if (bounce > caustics_.bounces) return no;
+        if (bounce == 1) return is_diffuse ? from_first : no;
+        return by_delta ? before : caustics_.at_second && before == from_first && is_diffuse ? from_second : no;
     }
     // Reads the fields at the hit z of a walk that left a diffuse surface and ends, or goes on.
     template <class Found>
     bool goes_on(CorrectedWalker& w, Sampler& sampler, std::vector<float>& fields, const Found& found) const {
-        const bool front = glm::dot(w.x.normal, w.wo) > 0.0;
-        if (!w.reads || !fields_->covers(w.x, front)) return true;
-        const Vec3 normal = front ? w.x.normal : -w.x.normal;
-        if (fields_->is_smooth(w.x) && !normals_agree(scene_.materials, w.x, normal, w.wo)) return true;
-        const double g = coupling(w.from.position, w.from.normal, w.x.position, normal);
-        const double left = g > w.clamp ? 1.0 - w.clamp / g : 0.0;
-        const bool on = left > 0.0 && (left * w.survival >= 1.0 || sampler.next() < left * w.survival);
+        if (!w.reads) return true;
+        const auto left = share_of_walks(scene_.materials, fields_, w.from.position, w.from.normal, w.x, w.wo, w.clamp);
+        if (!left) return true;
+        const double going_on = *left * w.survival;
+        const bool on = going_on > 0.0 && (going_on >= 1.0 || sampler.next() < going_on);
         const Rgb weight = on ? w.beta * (1.0 - 1.0 / w.survival) : w.beta;
         if (!on || w.survival < 1.0) {
             fields.resize(3 * fields_->size());
-            fields_->read(w.x, front, fields.data());
+            fields_->read(w.x, glm::dot(w.x.normal, w.wo) > 0.0, fields.data());
             for (std::size_t k = 0; k < fields_->size(); ++k)
                 found(k + 1, weight * Rgb(fields[3 * k], fields[3 * k + 1], fields[3 * k + 2]));
         }
@@ -149,7 +188,8 @@ private:
     const WalkSettings& settings_;
     const FieldRaster* fields_;
     const DirectionTables* tables_;
-    const SharedPoints* points_;
+    std::array<const SharedPoints*, 2> points_;
+    CausticsLeft caustics_;
     FirstVertex first_;
     double of_area_;
 };
@@ -203,7 +243,7 @@ struct CorrectedWalk::Steps : WalkSteps<CorrectedWalkers> {
             const double directions = splits ? directions_of_path(going_on(w.path).share) : 1.0;
             w.directions = splits ? directions / first.lights : 1.0;
             w.part_of_hits = 1.0;
-            w.clamp = walk.points_ ? (splits ? first.clamp : later_clamp) * walk.of_area_ : 0.0;
+            w.clamp = walk.points_[0] ? (splits ? first.clamp : later_clamp) * walk.of_area_ : 0.0;
             w.survival = splits ? first.survival : 1.0;
             w.walks_per_point = 1.0;
             w.beta /= directions;
@@ -244,29 +284,38 @@ struct CorrectedWalk::Steps : WalkSteps<CorrectedWalkers> {
     // R also chooses directions and points, and T finds which points are visible.
     bool reflect(int bounce, std::size_t q) {
         sample_lights_and_split(bounce, q);
-        walkers.with_shadow_ray.clear();
+        walkers.joins.clear();
         walkers.keep_if([&](CorrectedWalker& w, std::uint32_t i) {
-            if (!walk.choose_direction(w, settings.bounces - bounce, walkers.samplers[i])) return false;
-            if (!is_black(w.point_weight) && !settings.ending().is_last(bounce)) walkers.with_shadow_ray.push_back(i);
+            if (!walk.choose_direction(w, bounce, walkers.samplers[i])) return false;
+            for (std::uint32_t list = 0; list < w.joined.size(); ++list)
+                if (!is_black(w.joined[list].weight) && !settings.ending().is_last(bounce)) walkers.joins.push_back({i, list});
             return true;
         });
-        const SharedPoints* const points = walk.points_;
+        const auto point_of = [&](const CorrectedWalkers::Joins& joins) -> const SurfacePoint& {
+            return (*walk.points_[joins.list])[walkers.walker[joins.walker].joined[joins.list].point].y;
+        };
         test_visibility(
-            scene.geometry, walkers.with_shadow_ray.size(), RayCaster::Rays::any,
+            scene.geometry, walkers.joins.size(), RayCaster::Rays::any,
             [&](std::size_t k) {
-                const CorrectedWalker& w = walkers.walker[walkers.with_shadow_ray[k]];
-                return std::pair<const SurfacePoint&, const SurfacePoint&>(w.x, (*points)[w.point].y);
+                const CorrectedWalkers::Joins& joins = walkers.joins[k];
+                return std::pair<const SurfacePoint&, const SurfacePoint&>(walkers.walker[joins.walker].x, point_of(joins));
             },
             [&](std::size_t k, bool seen) {
-                const std::uint32_t i = walkers.with_shadow_ray[k];
+                const auto [i, list] = walkers.joins[k];
                 const CorrectedWalker& w = walkers.walker[i];
-                observer.joins(i, bounce, w.x, (*points)[w.point].y, seen);
+                observer.joins(i, bounce, w.x, point_of(walkers.joins[k]), seen);
                 if (!seen) return;
-                const Rgb* errors = points->errors_at(w.point);
-                for (std::size_t f = 1; f <= points->fields(); ++f) find_later(i, bounce, f, w.point_weight * errors[f - 1]);
+                const SharedPoints& points = *walk.points_[list];
+                const Rgb* carried = points.errors_at(w.joined[list].point);
+                for (std::size_t f = 1; f <= points.fields(); ++f) find_later(i, bounce, f, w.joined[list].weight * carried[f - 1]);
             });
-        rays[q] += walkers.with_shadow_ray.size();
+        rays[q] += walkers.joins.size();
         return true;
+    }
+    bool counts_hit(const CorrectedWalker& w, std::uint32_t i) const {
+        if (w.to_caustics != CorrectedWalker::ToCaustics::no && w.pdf == delta_pdf && walk.caustics_.to->bring(w.x, w.w))
+            return false;
+        return WalkSteps<CorrectedWalkers>::counts_hit(w, i);
     }
     double directions_per_light_sample(const CorrectedWalker& w) const { return w.directions; }
     double part_of_hits(const CorrectedWalker& w) const { return w.part_of_hits; }

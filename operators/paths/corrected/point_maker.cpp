@@ -45,14 +45,15 @@ PointMaker::PointMaker(const Scene& scene, const DirectLightSampler& direct, con
     if (walk_.rest_probability > 0.0) walk_.rest_probability = 1.0;
 }
 
-SharedPoints PointMaker::make_set(std::uint64_t replicate, std::size_t set, const SharedPoints* next, std::uint64_t& rays,
-                                  std::uint64_t& given_up) const {
+SharedPoints PointMaker::make_set(std::uint64_t replicate, std::size_t set, const JoinedPoints& next, const Caustics* caustics,
+                                  std::uint64_t& rays, std::uint64_t& given_up) const {
     WalkSettings walk = walk_;
     walk.bounces = std::max(walk_.bounces - 1 - static_cast<int>(set), 0);
     const auto N = static_cast<std::size_t>(walk.bounces), quantities = N + 2;
     FirstVertex samples = samples_;
-    if (!next) samples.survival = survival_in_last_set;
-    const CorrectedWalk corrected(scene_, direct_, walk, fields_, next, samples);
+    if (!next.errors) samples.survival = survival_in_last_set;
+    const CorrectedWalk corrected(scene_, direct_, walk, fields_, next,
+                                  {caustics, caustics ? caustics->bounces_of_points() : 0, false, nullptr}, samples);
     const FieldRaster& fields = *fields_.fields();
 
     std::vector<SharedPoints::Point> points(points_);
@@ -119,12 +120,11 @@ SharedPoints PointMaker::make_set(std::uint64_t replicate, std::size_t set, cons
     return {std::move(points), std::move(errors_of_points)};
 }
 
-std::optional<SharedPoints> PointMaker::make(std::uint64_t replicate, std::uint64_t& rays, std::uint64_t& given_up,
-                                             const Watch& watch) const {
+std::optional<SharedPoints> PointMaker::make(std::uint64_t replicate, const Caustics* caustics, const SharedPoints* carrying,
+                                             std::uint64_t& rays, std::uint64_t& given_up, const Watch& watch) const {
     std::optional<SharedPoints> next;
     for (std::size_t set = sets_; set-- > 0;) {
-        const SharedPoints* const behind = next ? &*next : nullptr;
-        SharedPoints made = make_set(replicate, set, behind, rays, given_up);
+        SharedPoints made = make_set(replicate, set, {next ? &*next : nullptr, carrying}, caustics, rays, given_up);
         next = std::move(made);
         if (watch.stop()) return std::nullopt;
     }

@@ -19,15 +19,16 @@ public:
     PointMaker(const Scene& scene, const DirectLightSampler& direct, const WalkSettings& walk, const Approximation& fields,
                SamplerKind sampler, std::uint64_t seed, std::uint32_t points, const FirstVertex& samples);
 
-    // Makes set 0. Adds to `rays` and, for the walks given up, to `given_up`. Returns nothing if `watch` stops it.
-    std::optional<SharedPoints> make(std::uint64_t replicate, std::uint64_t& rays, std::uint64_t& given_up,
-                                     const Watch& watch) const;
+    // Makes set 0. `caustics` and points that carry them, if any, are left to those and joined. Adds to `rays` and, for the walks
+    // given up, to `given_up`. Returns nothing if `watch` stops it.
+    std::optional<SharedPoints> make(std::uint64_t replicate, const Caustics* caustics, const SharedPoints* carrying,
+                                     std::uint64_t& rays, std::uint64_t& given_up, const Watch& watch) const;
     std::size_t sets() const { return sets_; }
 
 private:
     struct Workspace;
-    SharedPoints make_set(std::uint64_t replicate, std::size_t set, const SharedPoints* next, std::uint64_t& rays,
-                          std::uint64_t& given_up) const;
+    SharedPoints make_set(std::uint64_t replicate, std::size_t set, const JoinedPoints& next, const Caustics* caustics,
+                          std::uint64_t& rays, std::uint64_t& given_up) const;
 
     const Scene& scene_;
     const DirectLightSampler& direct_;

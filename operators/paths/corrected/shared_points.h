@@ -1,4 +1,5 @@
-// Points on diffuse sides that all pixels share, each with unbiased samples ê_k of the fields' errors e_k = K^k Le − f_k for all k.
+// Points on diffuse sides that all pixels share, each with unbiased samples ê_k of the fields' errors e_k = K^k Le − f_k for all k,
+// or with light K^k Le that no field has (caustics.h).
 #pragma once
 
 #include "core/geometry/surface_point.h"
@@ -19,8 +20,8 @@ public:
     };
     static constexpr std::size_t candidates = 16;
 
-    // `points` are in the order of the patches; their number is a multiple of the number of candidates. `errors` has
-    // for each point ê_1 … ê_N and Σ_{k>N} ê_k.
+    // The number of points is a multiple of the number of candidates; those of errors are in the order of the patches. `errors` has
+    // for each point ê_1 … ê_N and Σ_{k>N} ê_k, or the light of bounces 1 … N.
     SharedPoints(std::vector<Point> points, std::vector<Rgb> errors);
 
     std::size_t size() const { return points_.size(); }

@@ -1,10 +1,13 @@
 #include "operators/paths/guided/direction_tables.h"
 
+#include "core/base/frame.h"
 #include "core/base/hot.h"
 #include "operators/fields/matrix/facet_rays.h"
 
 #include <oneapi/tbb/parallel_for.h>
 #include <algorithm>
+#include <map>
+#include <numeric>
 
 namespace neumann {
 
@@ -101,6 +104,39 @@ DirectionTables::DirectionTables(const FieldStack& fields, const TableSettings& 
     });
     if (watch.stop()) throw Stopped();
     rays_ = std::uint64_t{settings.rays} * facets;
+}
+
+DirectionTables DirectionTables::with(std::span<const Arrival> arrivals, double share) const {
+    constexpr double few = 4.0;
+    struct Arrived {
+        double count = 0.0;
+        CellDistribution::Weights power{};
+    };
+    std::map<std::uint32_t, Arrived> of_facet;
+    for (const Arrival& arrival : arrivals) {
+        const bool front = glm::dot(arrival.at.normal, arrival.w) > 0.0;
+        const std::uint32_t facet = raster_.facet(arrival.at, front);
+        if (facet == space_->facets().size()) continue;
+        const Vec3 local = Frame(front ? arrival.at.normal : -arrival.at.normal).to_local(arrival.w);
+        Arrived& arrived = of_facet[facet];
+        arrived.count += 1.0;
+        arrived.power[CellDistribution::grid.cell(local)] += arrival.power;
+    }
+    DirectionTables result = *this;
+    for (const auto& [facet, arrived] : of_facet) {
+        const double all = std::accumulate(arrived.power.begin(), arrived.power.end(), 0.0);
+        if (!(all > 0.0)) continue;
+        const double to_them = share * arrived.count / (arrived.count + few);
+        for (std::size_t t = 0; t < tables_of_facet_; ++t) {
+            CellDistribution& table = result.tables_[facet * tables_of_facet_ + t];
+            CellDistribution::Weights weights;
+            for (std::uint32_t cell = 0; cell < CellDistribution::cells; ++cell)
+                weights[cell] =
+                    (1.0 - to_them) * table.density(cell) / CellDistribution::cells + to_them * arrived.power[cell] / all;
+            table = CellDistribution(weights);
+        }
+    }
+    return result;
 }
 
 }  // namespace neumann

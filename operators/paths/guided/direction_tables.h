@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace neumann {
@@ -48,6 +49,15 @@ public:
         const int table = std::min(wanted, static_cast<int>(tables_of_facet_)) - 1;
         return &tables_[facet * tables_of_facet_ + static_cast<std::size_t>(table)];
     }
+
+    // The same tables, but of the directions from a facet up to this share are towards light that arrived there, in proportion to
+    // its power.
+    struct Arrival {
+        SurfacePoint at;
+        Vec3 w;  // towards where it came from
+        double power;
+    };
+    DirectionTables with(std::span<const Arrival> arrivals, double share) const;
 
     std::uint64_t rays() const { return rays_; }
 

@@ -82,12 +82,13 @@ struct Spread {
 
 class Pilots {
 public:
-    Pilots(std::shared_ptr<const Approximation> approximation, const Scene& scene, const SamplingSettings& settings,
-           const Watch& watch)
+    Pilots(std::shared_ptr<const Approximation> approximation, std::shared_ptr<const CausticAim> caustics, const Scene& scene,
+           const SamplingSettings& settings, const Watch& watch)
         : scene_(scene),
           settings_(settings),
           watch_(watch),
           approximation_(std::move(approximation)),
+          caustics_(std::move(caustics)),
           terms_(settings.quantities() - 1) {
         settings_.colors = {};
         settings_.seed = parts_stream;
@@ -103,9 +104,15 @@ public:
         allocation.first.points = points;
         const CorrectedSampler sampler = sampler_of(pixels, std::move(allocation), samples_of_parts);
         return measure(pixels, replicates_of_parts, [&](std::uint64_t replicate, const OwnSamples& add) {
-            std::optional<SharedPoints>& shared = points_[replicate];
-            if (!shared) shared = sampler.points_of(replicate, rays_, watch_);
-            return sampler.own_samples(replicate, shared ? &*shared : nullptr, add, watch_);
+            std::optional<CorrectedSampler::Shared>& shared = shared_[replicate];
+            if (!shared) {
+                std::vector<std::uint64_t> rays(settings_.quantities());
+                std::uint64_t given_up = 0;
+                shared = sampler.shared(replicate, nullptr, rays, given_up, watch_);
+                if (!shared) return false;
+                rays_ += std::accumulate(rays.begin(), rays.end(), std::uint64_t{0});
+            }
+            return sampler.own_samples(replicate, shared->points(), add, watch_);
         });
     }
     // Of samples none of which goes on.
@@ -115,7 +122,7 @@ public:
         allocation.going_on = Allocation::none;
         const CorrectedSampler sampler = sampler_of(pixels, std::move(allocation), size);
         return measure(pixels, replicates, [&](std::uint64_t replicate, const OwnSamples& add) {
-            return sampler.own_samples(replicate, nullptr, add, watch_);
+            return sampler.own_samples(replicate, JoinedPoints(), add, watch_);
         });
     }
     Spread of_walk(const SomePixels& pixels) {
@@ -132,7 +139,7 @@ private:
         allocation.exponents = pixels.exponents;
         settings_.replicate_size = size;
         settings_.allocation = std::make_shared<const CorrectedAllocation>(std::move(allocation));
-        return {scene_, settings_, approximation_};
+        return {scene_, settings_, approximation_, caustics_};
     }
     template <class Sample>
     Spread measure(const SomePixels& pixels, std::uint32_t replicates, const Sample& sample) {
@@ -177,7 +184,8 @@ private:
     SamplingSettings settings_;
     const Watch& watch_;
     std::shared_ptr<const Approximation> approximation_;
-    std::array<std::optional<SharedPoints>, replicates_of_parts> points_;
+    std::shared_ptr<const CausticAim> caustics_;
+    std::array<std::optional<CorrectedSampler::Shared>, replicates_of_parts> shared_;
     std::size_t terms_;
     std::uint64_t rays_ = 0;
 };
@@ -209,7 +217,7 @@ std::shared_ptr<const Allocation> CorrectedPaths::allocate(const Scene& scene, c
     if (settings.walk.bounces < 2) return neumann::allocate(scene, settings, least, watch);
     const auto width = static_cast<std::size_t>(scene.film.crop_width), height = static_cast<std::size_t>(scene.film.crop_height),
                pixels = width * height, sum = settings.quantities() - 1, later = sum + 1, Q = sum + 2;
-    Pilots pilots(approximation_, scene, settings, watch);
+    Pilots pilots(approximation_, caustics_, scene, settings, watch);
 
     // B(G, C), in a few pixels.
     const SomePixels few = few_pixels(width, height);

@@ -21,7 +21,7 @@ struct CorrectedSampler::Workspace {
 
 // Samples all terms of these pixels in the replicate into work.group.
 template <class Observer>
-void CorrectedSampler::trace_group(std::uint64_t replicate, const PixelGroup& pixels, const SharedPoints* points, Workspace& work,
+void CorrectedSampler::trace_group(std::uint64_t replicate, const PixelGroup& pixels, const JoinedPoints& points, Workspace& work,
                                    const Observer& observer) const {
     const std::uint32_t size = pixels.size, samples = pixels.paths(), going_on = size_of_going_on(size);
     const std::size_t Q = settings_.quantities();
@@ -57,7 +57,9 @@ void CorrectedSampler::trace_group(std::uint64_t replicate, const PixelGroup& pi
                         });
     work.walkers.samplers = work.camera;
     const double share = going_on > 0 ? static_cast<double>(going_on) / size : share_of_none;
-    const CorrectedWalk corrected(*scene_, *direct_, settings_.walk, *approximation_, points, first_);
+    const CorrectedWalk corrected(
+        *scene_, *direct_, settings_.walk, *approximation_, points,
+        {caustics_ ? &*caustics_ : nullptr, settings_.walk.bounces, true, aim_ ? aim_->tables() : nullptr}, first_);
     corrected(
         work.walkers, [&](std::uint32_t i, std::uint32_t) -> Sampler& { return work.walkers.samplers[i]; },
         [&](std::uint32_t i, std::uint32_t g) -> const Sampler& {

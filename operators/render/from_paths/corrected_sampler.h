@@ -8,6 +8,7 @@
 #include "operators/paths/walk/observer.h"
 #include "operators/render/from_paths/path_sampler.h"
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -23,13 +24,14 @@ struct CorrectedAllocation : Allocation {
 
 class DirectLightSampler;
 class PointMaker;
-class SharedPoints;
 
 // Walks from the camera that read approximate fields on patches at the second diffuse surface, whose errors are carried by points
 // that all pixels share.
 class CorrectedPaths : public PathMethod {
 public:
-    explicit CorrectedPaths(std::shared_ptr<const Approximation> approximation) : approximation_(std::move(approximation)) {}
+    // `caustics`: null if walks from the camera make all light.
+    explicit CorrectedPaths(std::shared_ptr<const Approximation> approximation, std::shared_ptr<const CausticAim> caustics = {})
+        : approximation_(std::move(approximation)), caustics_(std::move(caustics)) {}
     const Approximation& approximation() const { return *approximation_; }
 
     std::shared_ptr<const PathSampler> sampler(const Scene& scene, const SamplingSettings& settings) const override;
@@ -39,14 +41,19 @@ public:
     static double rays_of_allocation(double pixels);
     static constexpr double rays_of_sample = 7.0;
     bool is_prepared() const override { return true; }
-    std::uint64_t rays() const override { return approximation_->rays(); }
+    std::uint64_t rays() const override { return approximation_->rays() + (caustics_ ? caustics_->rays() : 0); }
+    bool splats() const override { return makes_caustics(); }
     double walks_worth(int, std::span<const double>) const override { return 2.0; }
-    bool is_bounded(const SamplingSettings&) const override { return true; }
+    bool is_bounded(const SamplingSettings&) const override { return !makes_caustics(); }
+    bool is_boundless(std::size_t quantity) const override { return makes_caustics() && quantity > 1; }
     bool has_events() const override { return false; }  // contributions of points may be negative
     std::string why_no_balance() const override { return "a walk's weight is only what points that pixels share leave to it"; }
 
 private:
+    bool makes_caustics() const { return caustics_ && caustics_->pays(); }
+
     std::shared_ptr<const Approximation> approximation_;
+    std::shared_ptr<const CausticAim> caustics_;
 };
 
 class CorrectedSampler : public PathSampler {
@@ -54,7 +61,9 @@ public:
     // The rays for the points of a replicate, as a rough part of those for its pixels; it is larger in small pictures.
     static constexpr double share_of_points = 0.1;
 
-    CorrectedSampler(const Scene& scene, const SamplingSettings& settings, std::shared_ptr<const Approximation> approximation);
+    // Paths from lamps make caustics if these are not null and pay.
+    CorrectedSampler(const Scene& scene, const SamplingSettings& settings, std::shared_ptr<const Approximation> approximation,
+                     std::shared_ptr<const CausticAim> caustics = {});
 
     bool sample_picture(std::uint64_t replicate, std::vector<Rgb>& picture, SampleRanges& ranges, Tally& tally,
                         const Watch& watch) const override;
@@ -63,13 +72,19 @@ public:
     std::vector<Rgb> retrace(std::uint64_t replicate, std::uint32_t first, PathObserver& observer) const override;
     std::unique_ptr<const PathsToInspect> to_inspect() const override;
 
-    // The samples of all pixels with these points, or without any if null. False if `watch` stopped it.
-    bool own_samples(std::uint64_t replicate, const SharedPoints* points, const OwnSamples& each, const Watch& watch) const;
-    // The points that the pixels of a replicate share; nothing if no surface is diffuse, or if `watch` stopped it. Adds to `rays`.
-    std::optional<SharedPoints> points_of(std::uint64_t replicate) const;
-    std::optional<SharedPoints> points_of(std::uint64_t replicate, std::uint64_t& rays, const Watch& watch) const;
-    // As above, with these points, or without any if null.
-    std::vector<Rgb> retrace(std::uint64_t replicate, std::uint32_t first, const SharedPoints* points,
+    // The points that all pixels of a replicate share.
+    struct Shared {
+        std::optional<SharedPoints> errors, caustics;
+        JoinedPoints points() const { return {errors ? &*errors : nullptr, caustics ? &*caustics : nullptr}; }
+    };
+    // Calls seen() for the light that the camera sees from paths from the lamps, unless it is null. Adds to `rays`, by bounce, and
+    // for the walks given up to `given_up`. Nothing if `watch` stopped it.
+    std::optional<Shared> shared(std::uint64_t replicate, const std::function<void(const Caustics::Seen&)>& seen,
+                                 std::vector<std::uint64_t>& rays, std::uint64_t& given_up, const Watch& watch) const;
+    // The samples of all pixels with these points. False if `watch` stopped it.
+    bool own_samples(std::uint64_t replicate, const JoinedPoints& points, const OwnSamples& each, const Watch& watch) const;
+    // As above, with these points.
+    std::vector<Rgb> retrace(std::uint64_t replicate, std::uint32_t first, const JoinedPoints& points,
                              PathObserver& observer) const;
 
 private:
@@ -82,10 +97,12 @@ private:
         return going_on_ ? std::min(Allocation::size_of(settings_.replicate_size, *going_on_), size) : size;
     }
     template <class Observer = NoObserver>
-    void trace_group(std::uint64_t replicate, const PixelGroup& pixels, const SharedPoints* points, Workspace& work,
+    void trace_group(std::uint64_t replicate, const PixelGroup& pixels, const JoinedPoints& points, Workspace& work,
                      const Observer& observer = {}) const;
 
     std::shared_ptr<const Approximation> approximation_;
+    std::shared_ptr<const CausticAim> aim_;
+    std::optional<Caustics> caustics_;
     std::shared_ptr<const DirectLightSampler> direct_;
     std::shared_ptr<const PointMaker> points_;  // refers to *direct_ and to *approximation_
     FirstVertex first_ = CorrectedAllocation().first;

@@ -64,9 +64,20 @@ Goal goal_of_trial(const Goal& goal, int bounces, const TrialSize& size) {
     return trial;
 }
 
+// Whether `corrected`, as it is prepared, has paths from the lamps for what glass and mirrors throw on.
+bool makes_caustics(const Prepared& prepared) {
+    const auto made = prepared.of(method::Corrected::name);
+    return made && made->splats();
+}
+
 // The method for scenes in which no method knows its terms after the pilot: their errors are made by rare paths, which
 // the pilot may or may not have met. The kind of lights decides.
-MethodChoice by_the_lights(const method::Auto& open, const Scene& scene) {
+MethodChoice by_the_lights(const method::Auto& open, const Scene& scene, const Prepared& prepared) {
+    if (makes_caustics(prepared))
+        return {method::Corrected{open},
+                "what mirrors and glass throw on is rare: paths from the lamps find it, as fields find the rest, and no other "
+                "method was clearly "
+                "better twice"};
     if (scene.emitters.has_environment() || scene.hide_emitters) {
         if (DiffuseSides(scene).empty())
             return {method::Guided{open},
@@ -233,8 +244,7 @@ std::optional<Trials> try_methods(std::vector<Candidate> able, const Scene& smal
     }
 }
 
-// Whether `one` takes clearly less work than `other`, also in pilots of another seed. (In glass-ball one pilot in four
-// finds `corrected` better than `bidirectional`.)
+// Whether `one` takes clearly less work than `other`, also in pilots of another seed.
 bool is_better_twice(std::size_t one, std::size_t other, const Trials& trials, const Scene& small, Prepared& prepared,
                      const Watch& watch) {
     if (trials.promise.works[one] >= clearly_better * trials.promise.works[other]) return false;
@@ -292,12 +302,13 @@ MethodChoice choose(const method::Auto& open, const Scene& scene, const Goal& go
     if (works[best] > 0.0)
         why = fmt::format("for the same error the others took, in a pilot: {} times its work", fmt::join(others, ", "));
 
-    const MethodChoice by_lights = by_the_lights(open, scene);
+    const MethodChoice by_lights = by_the_lights(open, scene, prepared);
     const auto of_lights =
         static_cast<std::size_t>(std::ranges::find(pilots, by_lights.method.index(),
                                                    [](const MethodPilot& pilot) { return pilot.candidate.method.index(); }) -
                                  pilots.begin());
-    if (!trials->is_known() && of_lights != best && of_lights < pilots.size()) {
+    // Where mirrors or glass show what glass throws on, pilots may meet none of it and seem to know all.
+    if ((!trials->is_known() || (makes_caustics(prepared) && best > 0)) && of_lights != best && of_lights < pilots.size()) {
         // The walk, which is the first pilot, meets the fewest rare paths.
         if (best > 0 && is_better_twice(best, of_lights, *trials, small, prepared, of_pilots)) {
             why = fmt::format("rare paths decide, and in two pilots {} took clearly more work than it", name_of(by_lights.method));

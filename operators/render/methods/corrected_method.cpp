@@ -45,8 +45,10 @@ std::shared_ptr<const PathMethod> Corrected::prepare(const Preparing& in) const 
     }
     if (const auto made = in.prepared.of(name); made && serves(as<CorrectedPaths>(made)->approximation().settings(), wanted))
         return made;
-    return in.prepared.keep(
-        name, std::make_shared<const CorrectedPaths>(std::make_shared<const Approximation>(in.scene, wanted, in.watch)));
+    const auto approximation = std::make_shared<const Approximation>(in.scene, wanted, in.watch);
+    return in.prepared.keep(name, std::make_shared<const CorrectedPaths>(
+                                      approximation, std::make_shared<const CausticAim>(in.scene, wanted.bounces, wanted.seed,
+                                                                                        approximation->tables(), in.watch)));
 }
 
 void Corrected::complete(const SamplingSettings& settings, const Film&) {

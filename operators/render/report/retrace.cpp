@@ -104,22 +104,26 @@ std::vector<Rgb> SplatSampler::retrace(std::uint64_t replicate, std::uint32_t fi
     return std::move(group.samples);
 }
 
-std::optional<SharedPoints> CorrectedSampler::points_of(std::uint64_t replicate) const {
-    std::uint64_t rays = 0;
-    return points_of(replicate, rays, {});
+namespace {
+
+CorrectedSampler::Shared shared_of(const CorrectedSampler& sampler, std::uint64_t replicate, std::size_t quantities) {
+    std::vector<std::uint64_t> rays(quantities);
+    std::uint64_t given_up = 0;
+    return *sampler.shared(replicate, nullptr, rays, given_up, {});
 }
 
+}  // namespace
+
 std::vector<Rgb> CorrectedSampler::retrace(std::uint64_t replicate, std::uint32_t first, PathObserver& observer) const {
-    const auto points = points_of(replicate);
-    return retrace(replicate, first, points ? &*points : nullptr, observer);
+    return retrace(replicate, first, shared_of(*this, replicate, settings_.quantities()).points(), observer);
 }
 
 namespace {
 
 class WithPointsOfFirst : public PathsToInspect {
 public:
-    WithPointsOfFirst(const CorrectedSampler& sampler, const SampleLayout& layout)
-        : sampler_(sampler), layout_(layout), points_(sampler.points_of(0)) {}
+    WithPointsOfFirst(const CorrectedSampler& sampler, const SampleLayout& layout, std::size_t quantities)
+        : sampler_(sampler), layout_(layout), shared_(shared_of(sampler, 0, quantities)) {}
     std::uint32_t groups() const override { return layout_.groups(); }
     Group group(std::uint32_t number) const override {
         const PixelGroup pixels = layout_.group(number);
@@ -127,22 +131,22 @@ public:
     }
     bool are_of_first_replicate() const override { return true; }
     void retrace(std::uint64_t replicate, const Group& group, PathObserver& observer) const override {
-        (void)sampler_.retrace(replicate, group.first, points_ ? &*points_ : nullptr, observer);
+        (void)sampler_.retrace(replicate, group.first, shared_.points(), observer);
     }
 
 private:
     const CorrectedSampler& sampler_;
     const SampleLayout& layout_;
-    std::optional<SharedPoints> points_;
+    CorrectedSampler::Shared shared_;
 };
 
 }  // namespace
 
 std::unique_ptr<const PathsToInspect> CorrectedSampler::to_inspect() const {
-    return std::make_unique<const WithPointsOfFirst>(*this, layout_);
+    return std::make_unique<const WithPointsOfFirst>(*this, layout_, settings_.quantities());
 }
 
-std::vector<Rgb> CorrectedSampler::retrace(std::uint64_t replicate, std::uint32_t first, const SharedPoints* points,
+std::vector<Rgb> CorrectedSampler::retrace(std::uint64_t replicate, std::uint32_t first, const JoinedPoints& points,
                                            PathObserver& observer) const {
     Workspace work(settings_.quantities());
     SplitPaths split(observer, [&](std::uint32_t walker) { return work.walkers.walker[walker].path; });
