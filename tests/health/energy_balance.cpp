@@ -141,7 +141,7 @@ TEST(EnergyBalance, IsKeptInRoomsOfManyThings) {
 
 // Each method of a mixture is checked as it is by itself, with its share of the samples. 10⁻⁴ false alarms for the balance.
 TEST(EnergyBalanceSlow, OfAMixtureIsThatOfItsMethods) {
-    const Scene scene = read_scene(SCENES "/metal-room/metal-room.xml", {{"res", "32"}});
+    const Scene scene = read_scene(SCENES "/glossy-floor/glossy-floor.xml", {{"res", "32"}});
     const SamplingSettings settings = physics::settings_of(scene, method::Mixed{}, bounces, physics::fixed_seed);
     const PictureSampler sampler(scene, settings);
     const Checkup found = *check_up(scene, sampler, 64);
