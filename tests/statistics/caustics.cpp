@@ -5,8 +5,8 @@
 #include "operators/experiments/known/scene_maker.h"
 #include "operators/paths/corrected/caustic_aim.h"
 #include "operators/render/from_paths/corrected_sampler.h"
-#include "operators/render/from_paths/picture_sampler.h"
 #include "tests/physics/seed.h"
+#include "tests/statistics/sampled_moments.h"
 
 #include <gtest/gtest.h>
 
@@ -114,15 +114,6 @@ SamplingSettings corrected(const Scene& scene, int bounces, std::uint64_t seed, 
     settings.method = std::make_shared<const CorrectedPaths>(
         fields, with_caustics ? std::make_shared<const CausticAim>(scene, bounces, seed, fields->tables()) : nullptr);
     return settings;
-}
-
-SeriesMoments::Result sample(const Scene& scene, const SamplingSettings& settings, std::uint64_t replicates) {
-    const PictureSampler sampler(scene, settings);
-    Tally tally(sampler.quantities());
-    SeriesMoments moments(sampler.width(), sampler.height(), sampler.quantities());
-    moments.add(*sampler.run(0, replicates, tally));
-    EXPECT_EQ(tally.non_finite_samples(), 0u);
-    return moments.result();
 }
 
 // The lamp is so large that walks hit it through glass and mirrors often enough, also where these show caustics. Six figures of

@@ -8,10 +8,10 @@
 #include "operators/paths/corrected/approximation.h"
 #include "operators/paths/corrected/shared_points.h"
 #include "operators/render/from_paths/corrected_sampler.h"
-#include "operators/render/from_paths/picture_sampler.h"
 #include "operators/render/report/least_errors.h"
 #include "operators/statistics/student_t.h"
 #include "tests/physics/seed.h"
+#include "tests/statistics/sampled_moments.h"
 
 #include <gtest/gtest.h>
 #include <oneapi/tbb/global_control.h>
@@ -38,15 +38,6 @@ SamplingSettings corrected_settings(const Scene& scene, int bounces, std::uint32
     settings.method = std::make_shared<const CorrectedPaths>(std::make_shared<const Approximation>(
         scene, ApproximationSettings{.patches = patches, .rays = rays, .bounces = bounces, .seed = seed}));
     return settings;
-}
-
-SeriesMoments::Result sample(const Scene& scene, const SamplingSettings& settings, std::uint64_t replicates) {
-    const PictureSampler sampler(scene, settings);
-    Tally tally(sampler.quantities());
-    SeriesMoments moments(sampler.width(), sampler.height(), sampler.quantities());
-    moments.add(*sampler.run(0, replicates, tally));
-    EXPECT_EQ(tally.non_finite_samples(), 0u);
-    return moments.result();
 }
 
 // The means of the picture, of all terms and of the rest, in each channel: 64 replicates or more on both sides, so that 4.5
