@@ -44,9 +44,9 @@ struct Watch {
     std::function<void(const std::string&)> tell = [](const std::string&) {};
     // Fills in the true errors of a checkpoint, given the terms and their sum so far; empty if there is no reference.
     std::function<void(const std::function<Image(std::size_t)>& term, const Image& sum, Checkpoint&)> judge = {};
-    // Called with N and the mean pictures of the terms 0 … N so far, each made when it is asked for: first with those that are
-    // there within a moment, rough and perhaps smaller, then as they become better. From the thread that renders. Empty: not
-    // wanted.
+    // Called with N and pictures of the terms 0 … N so far, for looking at, each made when it is asked for: first with those that
+    // are there within a moment, rough and perhaps smaller, then as they become better; pixels are joined with neighbours that
+    // agree (operators/statistics/joined_neighbours.h). From the thread that renders. Empty: not wanted.
     std::function<void(std::size_t bounces, const std::function<Image(std::size_t)>& term)> show = {};
     // Whether to make checkpoints before the last one; they cost time.
     bool checkpoints = true;

@@ -24,7 +24,7 @@ void Preview::write(std::size_t bounces, const std::function<Image(std::size_t)>
         sums.push_back(std::move(sum));
     }
     const double exposure = exposure_for(sums.back(), terms.front());
-    const Strip strip = strip_of_terms({.terms = terms, .sums = sums, .kind = kind_}, terms.front(), exposure);
+    const Strip strip = strip_of_terms({.terms = terms, .sums = sums, .kind = kind_ + ", smoothed"}, terms.front(), exposure);
     try {
         folder_.show("preview.png", strip_png(strip, exposure, find_label_font()));
         is_there_ = true;

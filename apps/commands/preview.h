@@ -1,4 +1,4 @@
-// preview.png of an unfinished render: the strip of the terms so far.
+// preview.png of an unfinished render: the strip of the terms so far, whose noise is smoothed.
 #pragma once
 
 #include "apps/live/viewer.h"

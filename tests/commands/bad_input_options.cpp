@@ -77,6 +77,10 @@ TEST_F(BadInputOptions, Chains) {
 
 TEST_F(BadInputOptions, Adaptive) {
     expect_refused("--adaptive", "everything");
+    EXPECT_TRUE(refusal({"--adaptive", "-1"}).starts_with("--adaptive: '-1' is not bounces, sum, all or the number of a bounce\n"));
+    for (const std::string method : {"walk", "corrected", "mixed"})
+        EXPECT_EQ(refusal({"--method", method, "--adaptive", "5", "-n", "4"}),
+                  "--adaptive 5: the last bounce that has a picture is 4\n");
     EXPECT_EQ(refusal({"--method", "light", "--adaptive", "sum"}),
               "--adaptive belongs to auto, walk, guided, corrected, bidirectional and mixed, not to light\n");
 }

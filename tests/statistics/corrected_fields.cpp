@@ -224,7 +224,7 @@ TEST(SharedPoints, AskedAreOnAverageAll) {
         constexpr int numbers = 1 << 20;
         for (int j = 0; j < numbers; ++j) {
             const SharedPoints::Chosen chosen = shared.choose(x, normal, clamp, (j + 0.5) / numbers);
-            for (std::size_t k = 0; k < fields; ++k) found[k] += shared.errors_at(chosen.point)[k] * (chosen.weight / numbers);
+            for (std::size_t k = 0; k < fields; ++k) found[k] += shared.carried_by(chosen.point)[k] * (chosen.weight / numbers);
             asked += chosen.weight > 0.0;
         }
         EXPECT_GT(asked, 0.5 * numbers);

@@ -37,8 +37,8 @@ LIMITS = {
     "metropolis": 8,
     "bidirectional": 35,
     "photon": 19,
-    "lines of core, operators and apps": 99983,
-    "lines of tests": 45689,
+    "lines of core, operators and apps": 100153,
+    "lines of tests": 45793,
 }
 
 

@@ -118,8 +118,9 @@ void Bidirectional::trace_light_half(std::span<Numbers> samplers, BidirectionalW
             observer);
         end_where_made(j + 1);
     };
+    const WeightsOfPaths weights{h, lights_};
     walk_from_lights(
-        *scene_, T, emission_, lights_, ending, h, samplers, work.light, visit,
+        *scene_, T, emission_, ending, &weights, samplers, work.light, visit,
         [&](int j, std::size_t n) { counts[static_cast<std::size_t>(j)] += n; }, observer);
 }
 

@@ -41,7 +41,6 @@ Caustics::Caustics(const Scene& scene, int bounces, const FieldRaster* fields, d
       fields_(fields),
       clamp_(clamp),
       emission_(scene.geometry, scene.emitters),
-      lights_(scene.geometry, scene.emitters),
       ending_{bounces, {}, 0.0, 0},
       net_(net) {}
 

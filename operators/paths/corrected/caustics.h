@@ -81,7 +81,6 @@ private:
     const FieldRaster* fields_;
     double clamp_;
     EmissionSampler emission_;
-    LightSampler lights_;
     Ending ending_;
     SobolPoints net_;
 };
@@ -123,7 +122,7 @@ void Caustics::trace(std::span<AimedNumbers> numbers, Work& work, const OnSplat&
         });
     };
     walk_from_lights(
-        scene_, scene_.geometry, emission_, lights_, ending_, std::nullopt, numbers, walkers, visit,
+        scene_, scene_.geometry, emission_, ending_, nullptr, numbers, walkers, visit,
         [&](int j, std::size_t n) { rays[static_cast<std::size_t>(j)] += n; }, NoObserver());
 }
 

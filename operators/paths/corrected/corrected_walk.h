@@ -306,7 +306,7 @@ struct CorrectedWalk::Steps : WalkSteps<CorrectedWalkers> {
                 observer.joins(i, bounce, w.x, point_of(walkers.joins[k]), seen);
                 if (!seen) return;
                 const SharedPoints& points = *walk.points_[list];
-                const Rgb* carried = points.errors_at(w.joined[list].point);
+                const Rgb* carried = points.carried_by(w.joined[list].point);
                 for (std::size_t f = 1; f <= points.fields(); ++f) find_later(i, bounce, f, w.joined[list].weight * carried[f - 1]);
             });
         rays[q] += walkers.joins.size();

@@ -28,7 +28,7 @@ SharedPoints::SharedPoints(std::vector<Point> points, std::vector<Rgb> errors)
 
 // For each point the root of Σ_k (ê_k / m_k)², with m_k the mean of |ê_k|, so that all bounces have equal weight.
 std::vector<double> SharedPoints::error_sizes() const {
-    const auto size_of = [&](std::size_t i, std::size_t k) { return max_component(glm::abs(errors_at(i)[k])); };
+    const auto size_of = [&](std::size_t i, std::size_t k) { return max_component(glm::abs(carried_by(i)[k])); };
     std::vector<double> means(fields()), sizes(size());
     for (std::size_t i = 0; i < size(); ++i)
         for (std::size_t k = 0; k < fields(); ++k) means[k] += size_of(i, k) / static_cast<double>(size());

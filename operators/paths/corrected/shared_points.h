@@ -27,7 +27,7 @@ public:
     std::size_t size() const { return points_.size(); }
     std::size_t fields() const { return errors_.size() / points_.size(); }
     const Point& operator[](std::size_t point) const { return points_[point]; }
-    const Rgb* errors_at(std::size_t point) const { return errors_.data() + point * fields(); }
+    const Rgb* carried_by(std::size_t point) const { return errors_.data() + point * fields(); }
 
     // The point whose errors a walk reads at x, a surface side with this normal. Among a few candidates that are spread
     // over the list, one is chosen in proportion to what it contributes if it is visible: resampled importance sampling

@@ -18,13 +18,12 @@ struct LightTracingWork {
 // pixels at a position on the film, for bounces 0 … N and the rest N + 1. Adds the number of rays to `rays`, which has
 // N + 2 entries. Returns the number of walks given up.
 template <class Transport, class Sampler, class OnSplat, class Observer = NoObserver>
-NEUMANN_HOT std::uint64_t trace_light(const Scene& scene, const Transport& T, const EmissionSampler& emission,
-                                      const LightSampler& lights, const Ending& ending, std::span<Sampler> samplers,
-                                      LightTracingWork& work, const OnSplat& splatted, std::span<std::uint64_t> rays,
-                                      const Observer& observer = {}) {
+NEUMANN_HOT std::uint64_t trace_light(const Scene& scene, const Transport& T, const EmissionSampler& emission, const Ending& ending,
+                                      std::span<Sampler> samplers, LightTracingWork& work, const OnSplat& splatted,
+                                      std::span<std::uint64_t> rays, const Observer& observer = {}) {
     const auto quantity = [&](int bounce) { return static_cast<std::size_t>(std::min(bounce, ending.bounces + 1)); };
     return walk_from_lights(
-        scene, T, emission, lights, ending, std::nullopt, samplers, work.walkers,
+        scene, T, emission, ending, nullptr, samplers, work.walkers,
         [&](int j) {
             work.edges.clear();
             for (const std::uint32_t i : work.walkers.alive) {

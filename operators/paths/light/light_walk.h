@@ -14,7 +14,6 @@
 #include "operators/pointwise/adjoint_reflection.h"
 
 #include <cstdint>
-#include <optional>
 #include <span>
 
 namespace neumann {
@@ -50,13 +49,19 @@ inline PathWeights weights_at_first(Heuristic h, const LightSampler& lights, con
     return {.last = counted(h, pdf_of_sample / density), .before = e.is_delta ? 0.0 : counted(h, 1.0 / density)};
 }
 
-// Traces a path for each sampler; the paths advance together. `weights` is the heuristic of LightVertex::weights, if
-// these are needed. Calls visit(j) when all paths alive are at vertex j (vertex 0 is on the light), and rays(j, n) to
-// count n rays. Returns the number of paths given up.
+// How LightVertex::weights are found.
+struct WeightsOfPaths {
+    Heuristic heuristic;
+    const LightSampler& lights;
+};
+
+// Traces a path for each sampler; the paths advance together. `weights` is null if LightVertex::weights are not needed. Calls
+// visit(j) when all paths alive are at vertex j (vertex 0 is on the light), and rays(j, n) to count n rays. Returns the number of
+// paths given up.
 template <class Transport, class Sampler, class Visit, class CountRays, class Observer>
-std::uint64_t walk_from_lights(const Scene& scene, const Transport& T, const EmissionSampler& emission, const LightSampler& lights,
-                               const Ending& ending, std::optional<Heuristic> weights, std::span<Sampler> samplers,
-                               LightWalkers& walkers, const Visit& visit, const CountRays& rays, const Observer& observer) {
+std::uint64_t walk_from_lights(const Scene& scene, const Transport& T, const EmissionSampler& emission, const Ending& ending,
+                               const WeightsOfPaths* weights, std::span<Sampler> samplers, LightWalkers& walkers,
+                               const Visit& visit, const CountRays& rays, const Observer& observer) {
     std::uint64_t given_up = 0;
     walkers.begin(emission.empty() ? 0 : samplers.size());
     walkers.keep_if([&](LightWalker& w, std::uint32_t i) {
@@ -82,9 +87,9 @@ std::uint64_t walk_from_lights(const Scene& scene, const Transport& T, const Emi
             const double cosine = std::abs(glm::dot(w.x.normal, w.wi)), distance2 = glm::dot(d, d);
             if (!(cosine > 0.0)) return false;
             if (weights && j == 1)
-                w.weights = weights_at_first(*weights, lights, w, distance2, cosine);
+                w.weights = weights_at_first(weights->heuristic, weights->lights, w, distance2, cosine);
             else if (weights)
-                w.weights.arrive(*weights, distance2, cosine);
+                w.weights.arrive(weights->heuristic, distance2, cosine);
             return true;
         });
         visit(j);
@@ -101,9 +106,9 @@ std::uint64_t walk_from_lights(const Scene& scene, const Transport& T, const Emi
             if (!ending.live(j, w, max_component(s.weight), samplers[i], w.first_weight)) return false;
             const double cosine = std::abs(glm::dot(w.x.normal, s.wo));
             if (weights && s.pdf == delta_pdf)
-                w.weights.leave_by_the_only_direction(*weights, cosine);
+                w.weights.leave_by_the_only_direction(weights->heuristic, cosine);
             else if (weights)
-                w.weights.leave(*weights, cosine, s.pdf, camera_pdf(scene.materials, w.x, s.wo, w.wi));
+                w.weights.leave(weights->heuristic, cosine, s.pdf, camera_pdf(scene.materials, w.x, s.wo, w.wi));
             w.from = w.x;
             w.w = s.wo;
             w.pdf = s.pdf;

@@ -32,7 +32,7 @@ std::uint64_t PhotonTracer::trace_group(std::uint64_t pass, std::uint32_t first,
     for (std::uint32_t i = 0; i < count; ++i) work.samplers[i].start(pass * stride + first + i);
     work.by_delta.assign(count, 1);
     return walk_from_lights(
-        *scene_, scene_->geometry, emission_, lights_, walk_.ending(), std::nullopt, std::span(work.samplers), work.walkers,
+        *scene_, scene_->geometry, emission_, walk_.ending(), nullptr, std::span(work.samplers), work.walkers,
         [&](int j) {
             if (j == 0) return;
             for (const std::uint32_t i : work.walkers.alive) {

@@ -29,7 +29,6 @@ PhotonTracer::PhotonTracer(const Scene& scene, const WalkSettings& walk, const P
       sampler_(sampler),
       seed_(seed),
       emission_(scene.geometry, scene.emitters),
-      lights_(scene.geometry, scene.emitters),
       points_(net) {}
 
 std::optional<PhotonTracer::Photons> PhotonTracer::trace(std::uint64_t pass, const std::function<bool()>& stop) const {

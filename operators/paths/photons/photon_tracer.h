@@ -2,7 +2,6 @@
 #pragma once
 
 #include "core/emitter/emission_sampler.h"
-#include "core/emitter/light_sampler.h"
 #include "core/sampling/sampler.h"
 #include "core/scene/scene.h"
 #include "operators/paths/photons/photon_map.h"
@@ -62,7 +61,6 @@ private:
     SamplerKind sampler_;
     std::uint64_t seed_;
     EmissionSampler emission_;
-    LightSampler lights_;
     SobolPoints points_;
 };
 

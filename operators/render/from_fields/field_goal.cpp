@@ -5,6 +5,7 @@
 #include "operators/render/from_fields/field_costs.h"
 #include "operators/render/from_fields/field_errors.h"
 #include "operators/render/from_fields/field_rendering.h"
+#include "operators/statistics/joined_neighbours.h"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -234,7 +235,7 @@ std::optional<FieldRun> render_fields_to_goal(const Scene& scene, FieldSettings 
         watch.progress(progress);
     };
     const auto show = [&] {
-        if (watch.show) watch.show(run.pictures.bounces(), [&](std::size_t i) { return run.pictures.term_mean(i); });
+        if (watch.show) watch.show(run.pictures.bounces(), [&](std::size_t i) { return joined_neighbours(run.pictures.term(i)); });
         if (see) see(run);
     };
     for (;;) {

@@ -162,10 +162,15 @@ std::shared_ptr<const Allocation> allocate(const Scene& scene, const SamplingSet
         for (const double v : of_blocks) blocks.variances.push_back(((1.0 - spread_out) * v + everywhere) / size);
         return true;
     };
-    if (least != LeastError::of_sum)
-        for (std::size_t q = 0; q < terms; ++q) add(q);
-    const bool has_bounces = !blocks.variances.empty(), has_sum = least != LeastError::of_bounces && add(terms);
-    if (least == LeastError::of_all && !(has_bounces && has_sum)) least = has_sum ? LeastError::of_sum : LeastError::of_bounces;
+    if (least.bounce) {
+        add(static_cast<std::size_t>(*least.bounce));
+        least = LeastError::of_bounces;
+    } else {
+        if (least != LeastError::of_sum)
+            for (std::size_t q = 0; q < terms; ++q) add(q);
+        const bool has_bounces = !blocks.variances.empty(), has_sum = least != LeastError::of_bounces && add(terms);
+        if (least == LeastError::of_all && !(has_bounces && has_sum)) least = has_sum ? LeastError::of_sum : LeastError::of_bounces;
+    }
     Allocation allocation{std::vector<std::int8_t>(layout.pixels(), 0), all_rays + *shared};
     if (blocks.variances.empty()) return std::make_shared<const Allocation>(std::move(allocation));
     const std::vector<std::int8_t> powers = as_powers(

@@ -41,7 +41,7 @@ double error_of_sum(const MixtureCosts& all, const std::vector<double>& errors) 
 }
 
 double least_of(const MixtureCosts& all, const std::vector<double>& errors, double of_sum, LeastError least) {
-    if (least == LeastError::of_bounces) return *std::ranges::max_element(errors);
+    if (least == LeastError::of_bounces || least.bounce) return *std::ranges::max_element(errors);
     if (least == LeastError::of_sum) return of_sum;
     double logarithms = std::log(of_sum);
     for (const double e : errors) logarithms += std::log(e);
@@ -62,14 +62,15 @@ std::vector<double> best_mixture(const MixtureCosts& all, LeastError least) {
             smallest = size;
             best = numbers;
         }
-        for (std::size_t k = 0; k < all.errors; ++k) switch (least) {
-                case LeastError::of_bounces:
+        for (std::size_t k = 0; k < all.errors; ++k) switch (least.of) {
+                case LeastError::Of::bounces:
+                case LeastError::Of::bounce:
                     weights[k] *= std::sqrt(errors[k] / size);
                     break;
-                case LeastError::of_sum:
+                case LeastError::Of::sum:
                     weights[k] = all.sizes[k];
                     break;
-                case LeastError::of_all:
+                case LeastError::Of::all:
                     weights[k] = 1.0 / errors[k] + all.sizes[k] / of_sum;
                     break;
             }

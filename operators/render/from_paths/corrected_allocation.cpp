@@ -8,8 +8,8 @@
 //     E_q = (mean_p D_pq / d_p + B_q(G, C)) / n,     n (c(G, C) + c_d (mean_p d_p − 1))
 //
 // D and B are measured, B for a few G and C. D is large only at edges of lights, shadows and surfaces. d_p ∝ √D_p,
-// the optimum at given cost. Its factor, G and C are those that make least the largest of these errors, or that of the sum, or
-// (of all) their mean, as long as neither a bounce nor the sum is worse than by walks of the same cost.
+// the optimum at given cost. Its factor, G and C are those that make least the largest of these errors, or that of the sum or of a
+// single bounce, or (of all) their mean, as long as neither a bounce nor the sum is worse than by walks of the same cost.
 #include "operators/paths/corrected/shared_points.h"
 #include "operators/render/from_paths/allocation.h"
 #include "operators/render/from_paths/corrected_sampler.h"
@@ -265,6 +265,10 @@ std::shared_ptr<const Allocation> CorrectedPaths::allocate(const Scene& scene, c
     const Spread of_direct = pilots.of_direct(all_pixels(pixels), with_rays, replicates_of_direct, samples_of_direct);
     // Of each quantity by itself. Neighbours share their noise, since that of a pixel is known from a few replicates alone; and
     // those beyond them, since none of its samples may meet a lamp that covers a hundredth of it.
+    const auto counts = [&](std::size_t q) {
+        if (least.bounce) return q == static_cast<std::size_t>(*least.bounce);
+        return least == LeastError::of_all || (least == LeastError::of_sum) == (q == sum);
+    };
     std::vector<std::vector<double>> D(later);
     std::vector<double> noise(pixels, 0.0), of_pixels(pixels);
     for (std::size_t q = 0; q <= sum; ++q) {
@@ -274,7 +278,7 @@ std::shared_ptr<const Allocation> CorrectedPaths::allocate(const Scene& scene, c
         // A few pixels may have most of it, and walks have no less.
         by_walk[q] = std::max(by_walk[q], price_of_ray_of_walk * of_walk.rays * all);
         for (double& v : D[q]) v = (1.0 - spread_of_parts) * v + spread_of_parts * all;
-        if ((q == sum ? least != LeastError::of_bounces : least != LeastError::of_sum) && all > 0.0)
+        if (counts(q) && all > 0.0)
             for (std::size_t pixel = 0; pixel < pixels; ++pixel) noise[pixel] += D[q][pixel] / all;
     }
 
@@ -298,13 +302,13 @@ std::shared_ptr<const Allocation> CorrectedPaths::allocate(const Scene& scene, c
             for (std::size_t q = 0; q <= sum; ++q) {
                 const double error = cost * (of_direct_light[q] + B[k][q]);
                 (q == sum ? of_sum : total) += error;
-                if (q < sum) largest = std::max(largest, error);
+                if (q < sum && counts(q)) largest = std::max(largest, error);
                 // Bounce 0 counts in the sum alone: a walk whose light soon leaves the scene makes little else.
                 if (q > 0 && by_walk[q] > 0.0) beside_walk = std::max(beside_walk, error / by_walk[q]);
             }
-            const double size = least == LeastError::of_bounces ? largest
-                                : least == LeastError::of_sum   ? of_sum
-                                                                : total * std::pow(beside_walk, weight_of_walk);
+            const double size = least == LeastError::of_sum   ? of_sum
+                                : least == LeastError::of_all ? total * std::pow(beside_walk, weight_of_walk)
+                                                              : largest;
             if (!(size > 0.0 && size < smallest)) continue;
             smallest = size;
             cost_of_best = cost;

@@ -1,12 +1,28 @@
 // The error that the distribution of a picture's samples makes least.
 #pragma once
 
+#include <optional>
+
 namespace neumann {
 
-enum class LeastError {
-    of_bounces,  // the largest relative error of a bounce
-    of_sum,      // the relative error of the sum of all bounces
-    of_all       // all of these together, so that none is bought with much of another
+struct LeastError {
+    enum class Of { bounces, sum, all, bounce } of;
+    std::optional<int> bounce = {};  // of `bounce`
+
+    // The largest relative error of a bounce.
+    static const LeastError of_bounces;
+    // The relative error of the sum of all bounces.
+    static const LeastError of_sum;
+    // All of these together, so that none is bought with much of another.
+    static const LeastError of_all;
+    // That of a single bounce, the n-th.
+    static constexpr LeastError of_bounce(int n) { return {Of::bounce, n}; }
+
+    bool operator==(const LeastError&) const = default;
 };
+
+inline constexpr LeastError LeastError::of_bounces{LeastError::Of::bounces};
+inline constexpr LeastError LeastError::of_sum{LeastError::Of::sum};
+inline constexpr LeastError LeastError::of_all{LeastError::Of::all};
 
 }  // namespace neumann

@@ -114,12 +114,14 @@ struct Measured {
     std::vector<std::size_t> bounces;  // the bounces with light and variance
 };
 
-Measured measure(const Contenders& all, double budget, const Grid& grid) {
+// If `of` is a single bounce, of this one.
+Measured measure(const Contenders& all, double budget, const Grid& grid, LeastError of) {
     const std::size_t M = all.size(), B = grid.blocks.count();
     Measured found{{M, 0, B, {}, std::vector<double>(M * B, 0.0), {}, budget, {}}, {}};
     for (const Contender& contender : all) found.costs.even.push_back(contender.candidate->settings.method->has_even_samples());
     std::vector<std::vector<double>> variances(M);
     for (std::size_t bounce = 0; bounce < all.front().trial->terms(); ++bounce) {
+        if (of.bounce && bounce != static_cast<std::size_t>(*of.bounce)) continue;
         const BounceVariances bounce_variances = variances_of(all, bounce, grid);
         double sum = 0.0;
         for (const std::vector<double>& of_method : bounce_variances.of) sum += sum_of(of_method);
@@ -165,13 +167,14 @@ Choice choose(Contenders contenders, double budget, const Grid& grid, LeastError
         }
     };
     go_on(first_replicates);
-    const MixtureCosts at_first = measure(all, budget, grid).costs;
+    const MixtureCosts at_first = measure(all, budget, grid, least).costs;
     const std::vector<double> shares = shares_of(at_first, best_numbers(at_first, least));
     for (std::size_t m = all.size(); m-- > 0;)
         if (shares[m] < share_to_go_on) chosen.leave_out(m);
     go_on(all_replicates - first_replicates);
 
-    chosen.measured = measure(all, budget, grid);
+    chosen.measured = measure(all, budget, grid, least);
+    if (least.bounce) least = LeastError::of_bounces;  // of which there is one
     MixtureCosts& costs = chosen.measured.costs;
     for (;;) {
         chosen.numbers = best_numbers(costs, least);

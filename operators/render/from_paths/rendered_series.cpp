@@ -5,6 +5,7 @@
 #include "operators/render/from_paths/bounded_samples.h"
 #include "operators/render/from_paths/chance_agreement.h"
 #include "operators/render/from_paths/shared_sampling.h"
+#include "operators/statistics/joined_neighbours.h"
 #include "operators/statistics/picture_statistics.h"
 
 #include <fmt/format.h>
@@ -53,7 +54,7 @@ Checkpoint make_checkpoint(const RenderedSeries& series, const Watch& watch) {
     checkpoint.sum_error = relative_standard_error(result.sum(terms - 1));
     const auto term = [&](std::size_t i) { return result.term(i).mean; };
     if (watch.judge) watch.judge(term, result.sum(terms - 1).mean, checkpoint);
-    if (watch.show) watch.show(terms - 1, term);
+    if (watch.show) watch.show(terms - 1, [&](std::size_t i) { return joined_neighbours(result.term(i)); });
     return checkpoint;
 }
 

@@ -38,7 +38,7 @@ void SplatSampler::trace_group(std::uint64_t replicate, std::uint32_t first, std
     for (std::uint32_t i = 0; i < samples; ++i) light[i].start(replicate * paths + first + i);
 
     if (!joined_) {
-        work.tally.given_up += trace_light(*scene_, scene_->geometry, emission_, lights_, settings_.walk.ending(), std::span(light),
+        work.tally.given_up += trace_light(*scene_, scene_->geometry, emission_, settings_.walk.ending(), std::span(light),
                                            work.light, splatted, work.tally.rays, observer);
         return;
     }

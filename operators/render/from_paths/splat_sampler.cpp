@@ -49,7 +49,6 @@ SplatSampler::SplatSampler(const Scene& scene, const SamplingSettings& settings,
       joined_(joined),
       pixels_(static_cast<std::uint32_t>(scene.film.crop_width) * static_cast<std::uint32_t>(scene.film.crop_height)),
       emission_(scene.geometry, scene.emitters),
-      lights_(scene.geometry, scene.emitters),
       bidirectional_(scene, settings.walk, pixels_),
       light_points_(light_net) {}
 

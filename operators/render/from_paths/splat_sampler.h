@@ -87,7 +87,6 @@ private:
     std::optional<BidirectionalPaths::Quantities> joined_;
     std::uint32_t pixels_;
     EmissionSampler emission_;
-    LightSampler lights_;
     Bidirectional bidirectional_;
     SobolPoints light_points_;
 };

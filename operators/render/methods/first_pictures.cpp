@@ -3,6 +3,7 @@
 #include "core/base/error.h"
 #include "operators/render/from_fields/field_rendering.h"
 #include "operators/render/methods/ahead.h"
+#include "operators/statistics/joined_neighbours.h"
 
 #include <algorithm>
 
@@ -38,7 +39,7 @@ void show_first_pictures(const Scene& scene, const Method& method, const Goal& g
     settings.rest = false;
     try {
         const auto pictures = render_fields(scene.with(small_film(scene.film, most_pixels)), settings, {.stop = watch.stop});
-        if (pictures) watch.show(pictures->bounces(), [&](std::size_t i) { return pictures->term_mean(i); });
+        if (pictures) watch.show(pictures->bounces(), [&](std::size_t i) { return joined_neighbours(pictures->term(i)); });
     } catch (const InputError&) {
         // Fields cannot render some scenes, such as those without surfaces.
     }

@@ -38,6 +38,14 @@ const Named<LightChoice> light_choices{{"mixed", LightChoice::mixed}, {"uniform"
                                        {"tree", LightChoice::tree},   {"all", LightChoice::all}};
 const Named<SamplerKind> samplers{{"sobol", SamplerKind::sobol}, {"independent", SamplerKind::independent}};
 const Named<LeastError> least_errors{{"bounces", LeastError::of_bounces}, {"sum", LeastError::of_sum}, {"all", LeastError::of_all}};
+std::optional<LeastError> read_least_error(const std::string& text) {
+    if (const auto named = one_of_named(least_errors).read(text)) return named;
+    const auto bounce = number_in<int>(text);
+    return bounce && *bounce >= 0 ? std::optional(LeastError::of_bounce(*bounce)) : std::nullopt;
+}
+std::string print_least_error(const LeastError& least) {
+    return least.bounce ? fmt::format("{}", *least.bounce) : one_of_named(least_errors).print(least);
+}
 const Named<method::LeavingOut> plans{{"auto", method::LeavingOut::by_plan}, {"full", method::LeavingOut::nothing}};
 
 std::optional<Roulette> read_roulette(const std::string& text) {
@@ -112,13 +120,15 @@ std::vector<MethodOption> options_of_walks() {
 
 std::vector<MethodOption> shared_options() {
     return {
-        choice(
+        option(
             "adaptive", "WHAT",
             "For auto, walk, guided, corrected, bidirectional and mixed: more samples for the pixels that need them, by a pilot, "
             "so "
-            "that the largest relative error of a bounce (bounces), that of the sum (sum), or both at once (all) is least",
-            least_errors, [](const auto& m) requires requires { m.adaptive; } { return m.adaptive; },
-            [](auto& m, LeastError least) { m.adaptive = least; }),
+            "that the largest relative error of a bounce (bounces), that of the sum (sum), both at once (all), or that of one "
+            "bounce, such as 3, is least",
+            [](const auto& m) requires requires { m.adaptive; } { return m.adaptive; },
+            [](auto& m, LeastError least) { m.adaptive = least; },
+            Form<LeastError>{read_least_error, print_least_error, not_a("bounces, sum, all or the number of a bounce")}),
         flag(
             "bias-allowed",
             "For auto: choose among matrix and gather, too, whose pictures have an error of their own, which they state; by a "

@@ -60,6 +60,9 @@ SamplingSettings sampling_settings(const Method& method, const Scene& scene, con
 
 bool set_up(const Method& method, const Scene& scene, int bounces, double memory, SamplingSettings& settings, Prepared& prepared,
             const Watch& watch) {
+    const std::optional<LeastError> least = adaptive_of(method);
+    if (least && least->bounce > bounces)
+        throw OptionError("adaptive", fmt::format("{}: the last bounce that has a picture is {}", *least->bounce, bounces));
     settings.walk.bounces = bounces;
     settings.method = plain_walks();
     settings.allocation = {};
@@ -77,7 +80,6 @@ bool set_up(const Method& method, const Scene& scene, int bounces, double memory
         if (!may_do_without) throw;
     }
     if (may_do_without) return true;
-    const std::optional<LeastError> least = adaptive_of(method);
     try {
         if (least) settings.allocation = settings.method->allocate(scene, settings, *least, watch);
     } catch (const Stopped&) {
