@@ -67,6 +67,37 @@ plt.show()
 # from, and each bounce is $\rho$ times the one before. What the `assert` says is stronger: in a closed room of one reflectance
 # the *power* $\sum_u A_u t_u$ of bounce $n$ is exactly $\rho^n$ times the lamp's, whatever the shape.
 #
+# ## The check of the lecture
+# Is $I + K + K^2 + \dots$ really the inverse of $I - K$? Multiply, and all terms but the first and the last cancel, like the parts
+# of a telescope:
+#
+# $$(I - K)\, S_n = (I + K + \dots + K^n)\, L_e - (K + K^2 + \dots + K^{n+1})\, L_e = L_e - K^{n+1} L_e .$$
+#
+# So $S_n$ solves the equation for a lamp that shines $K^{n+1} L_e$ less. The pictures are the wall beside the lamp, which shines
+# nothing itself: above $S_n$, below $-(I - K)\, S_n = K^{n+1} L_e$, what it still lacks there.
+
+# %%
+rho, wall, shown = 0.8, cube.face == 1, (0, 1, 2, 4, 8, 16)
+K, t, S = rho * F, Le, Le
+figure, axes = plt.subplots(2, len(shown), figsize=(10, 4), layout="constrained")
+for n in range(max(shown) + 1):
+    left = S - K @ S  # (I − K) S_n
+    t = K @ t  # K^{n+1} Le
+    assert np.abs(left - (Le - t)).max() <= 1e-14
+    if n in shown:
+        for axis, picture, low, high in ((axes[0, shown.index(n)], S, 0, 1.2), (axes[1, shown.index(n)], -left, 0, 0.4)):
+            axis.imshow(picture[wall].reshape(8, 8), vmin=low, vmax=high, origin="lower")
+            axis.set(xticks=[], yticks=[])
+        axes[0, shown.index(n)].set_title(f"$n$ = {n}")
+    S = S + t
+axes[0, 0].set_ylabel("$S_n$")
+axes[1, 0].set_ylabel("$-(I - K)\\, S_n$")
+plt.show()
+
+# %% [markdown]
+# The figure: the wall fills with light from the ceiling on, and what it lacks fades to 0. Nothing was assumed but that sums may be
+# multiplied term by term; *that* it fades is what the rest of this lesson is about.
+#
 # ## What is proven about the rest
 # What is left out after bounce $n$ is $L - S_n = t_{n+1} + t_{n+2} + \dots$ Nobody reflects more than $a$, so
 # $\|K f\|_\infty \le a \|f\|_\infty$, and

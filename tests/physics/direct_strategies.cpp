@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <algorithm>
+#include <array>
 
 namespace neumann::physics::direct_strategies_test {
 
@@ -106,6 +107,29 @@ TEST(DirectStrategiesSlow, ManyLights) {
             EXPECT_NEAR(a.mean.r, b.mean.r, 4.5 * std::hypot(a.standard_error.r, b.standard_error.r)) << "bounce " << i;
             EXPECT_LT(a.standard_error.r, (samples_lights(s) ? 0.01 : 0.05) * a.mean.r) << "no power in bounce " << i;
         }
+    }
+}
+
+// The example of Bikker, Probability Theory for Physically Based Rendering, part 2: four lights with potential contributions I · SA
+// of 0.01, 5.02, 2.77 and 0.59 are chosen where their cdf, 0.1%, 60%, 93% and 100%, says. Four balls that are as far away.
+TEST(DirectStrategies, ChooseByTheCdfOfTheContributions) {
+    constexpr std::array contributions{0.01, 5.02, 2.77, 0.59};
+    SceneMaker maker;
+    maker.add(Sphere{{2, 0, 0}, 0.1, false}, lamp(contributions[0]));
+    maker.add(Sphere{{0, 2, 0}, 0.1, false}, lamp(contributions[1]));
+    maker.add(Sphere{{0, 0, 2}, 0.1, false}, lamp(contributions[2]));
+    maker.add(Sphere{{-2, 0, 0}, 0.1, false}, lamp(contributions[3]));
+    const Scene scene = maker.make();
+    const LightSampler lights(scene.geometry, scene.emitters, LightChoice::contribution);
+    constexpr int numbers = 100'000;
+    std::array<double, 4> chosen{};
+    for (int i = 0; i < numbers; ++i)
+        chosen[lights.sample(Receiver(Vec3(0.0)), Vec2((i + 0.5) / numbers, 0.5), 0).point.shape] += 1.0 / numbers;
+    double cdf = 0.0, sum = 0.0;
+    for (std::size_t i = 0; i < 4; ++i) {
+        cdf += chosen[i];
+        sum += contributions[i];
+        EXPECT_NEAR(cdf, sum / 8.39, 1.0 / numbers) << "light " << i + 1;
     }
 }
 
