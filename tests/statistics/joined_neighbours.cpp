@@ -66,7 +66,17 @@ TEST(JoinedNeighbours, OfABrightPixelTellWhatItIs) {
     EXPECT_NEAR(joined_neighbours(picture).pixels[bright].r, 1.0, 0.5);
 }
 
-TEST(JoinedNeighbours, NoneWithoutErrors) {
+// A lamp whose pixels all are alike, beside darkness.
+TEST(JoinedNeighbours, OfPixelsWithoutErrorsAreTheirEquals) {
+    Estimate picture = noisy_edge(0.0, 0.0);
+    for (Rgb& error : picture.standard_error.pixels) error = Rgb(0.0);
+    for (std::size_t p = 0; p < picture.mean.pixels.size(); ++p)
+        picture.mean.pixels[p] = p % size < size / 3 ? Rgb(0.75) : Rgb(0.0);
+    const Image joined = joined_neighbours(picture);
+    for (std::size_t p = 0; p < joined.pixels.size(); ++p) EXPECT_NEAR(joined.pixels[p].r, picture.mean.pixels[p].r, 1e-6) << p;
+}
+
+TEST(JoinedNeighbours, NoneWithoutDegreesOfFreedom) {
     Estimate picture = noisy_edge(1.0, 2.0);
     picture.degrees_of_freedom = 0.0;
     const Image joined = joined_neighbours(picture);

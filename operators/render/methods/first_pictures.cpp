@@ -33,8 +33,8 @@ void show_first_pictures(const Scene& scene, const Method& method, const Goal& g
     if (expected_rays(with_default_limits(goal), scene.film, settings.bounces) < rays_of_a_long_render) return;
     settings.patching.patches = 1000;
     settings.rays = 64;
-    settings.samples = 4;
-    settings.replicates = 2;
+    settings.samples = 2;
+    settings.replicates = 4;
     settings.seed = goal.seed ^ stream;
     settings.rest = false;
     try {
