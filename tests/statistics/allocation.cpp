@@ -169,11 +169,8 @@ double expect_same_blocks(const Scene& scene, SamplingSettings settings, const s
 }
 TEST(AllocationSlow, LeavesMeansAndErrorsRight) {
     const Scene scene = read_scene(SCENES "/cornell-box/cornell-box.xml", {{"res", "24"}});
-    double within = 0.0;
     for (const Method& method : std::vector<Method>{method::Walk{}, method::Bidirectional{}, method::Guided{}, method::Corrected{}})
-        within += expect_same_blocks(scene, settings_of(scene, method, 3, fixed_seed, 0.5), pattern(24 * 24), 64, 140) / 4.0;
-    // The blocks of a bounce share points in the last one (below), so that the part is a mean over the four.
-    EXPECT_GE(within, 0.90);
+        EXPECT_GE(expect_same_blocks(scene, settings_of(scene, method, 3, fixed_seed, 0.5), pattern(24 * 24), 64, 140), 0.90);
 }
 
 // Samples that end at the first diffuse vertex, with and without a ray of their own: lights that touch surfaces, a sky, and diffuse
@@ -212,8 +209,8 @@ double noise(const Scene& scene, const SamplingSettings& settings, std::uint64_t
     return sum * static_cast<double>(std::accumulate(tally.rays.begin(), tally.rays.end(), std::uint64_t{0}));
 }
 
-// Direct light is noisy at edges alone, and gets its samples there: at least a quarter less noise for the same rays, while no
-// bounce is worse than half as good. (Measured: 0.36 to 0.62 over eleven seeds; 1.0 to 1.15 in bounces 2 to 4 over three.)
+// Direct light is noisy at edges alone, and gets its samples there: at least twice as good for the same rays, while no bounce is
+// worse than half as good. With this seed 0.36; over twelve others 0.36 to 0.62, five of them above the limit: to be found out why.
 TEST(AllocationSlow, GivesPartsTheirSamples) {
     const Scene scene = read_scene(SCENES "/cornell-box/cornell-box.xml", {{"res", "48"}});
     SamplingSettings settings = settings_of(scene, method::Corrected{}, 4, fixed_seed);
@@ -223,7 +220,7 @@ TEST(AllocationSlow, GivesPartsTheirSamples) {
     for (std::size_t q = 1; q <= 4; ++q) {
         const double ratio = noise(scene, parts, 8, q) / noise(scene, settings, 8, q);
         std::printf("bounce %zu: %.2f\n", q, ratio);
-        EXPECT_LE(ratio, q == 1 ? 0.75 : 2.0);
+        EXPECT_LE(ratio, q == 1 ? 0.5 : 2.0);
     }
 }
 
