@@ -60,6 +60,8 @@ const char* name(Paths paths) {
             return "all";
         case Paths::without_specular:
             return "a subset: those without specular reflections";
+        case Paths::without_caustics:
+            return "a subset: those whose light does not come from a mirror or through glass onto the first other surface";
         case Paths::seen_directly:
             return "a subset: those that the camera sees on surfaces, and not in a mirror or through glass";
         case Paths::specular:

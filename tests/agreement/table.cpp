@@ -70,9 +70,9 @@ auto by(const std::string& method, const Options& options = {}, std::uint32_t si
     };
 }
 // Where a surface is met at a short distance the weights of its points have no variance, which the rest gathers from all of them.
-auto by_surfaces() {
-    return [](const Scene& scene, std::uint64_t seed) {
-        SamplingSettings settings = by("surface")(scene, seed);
+auto without_rest(const std::string& method) {
+    return [=](const Scene& scene, std::uint64_t seed) {
+        SamplingSettings settings = by(method)(scene, seed);
         settings.walk.rest_probability = 0.0;
         return settings;
     };
@@ -106,8 +106,11 @@ std::vector<Row> rows() {
     return {
         {"bidirectional", by("bidirectional"), 64, usual, of_walks},
         {"light", by("light"), 64, usual, {"cornell-box", "door-ajar", "floating-panels", "furnace"}},
-        {"surface", by_surfaces(), 64, usual, {"floating-panels"}},
+        {"surface", without_rest("surface"), 64, usual, {"floating-panels"}},
+        {"shooting", without_rest("shooting"), 64, usual, {"floating-panels"}},
         {"walk", by("walk"), 256, usual, {"door-ajar", "metal-room", "outdoor"}},
+        {"walk_uniform", by("walk", {{"indirect", "uniform"}}), 256, usual, {"cornell-box", "glossy-floor"}},
+        {"walk_cosine", by("walk", {{"indirect", "cosine"}}), 256, usual, {"metal-room", "outdoor"}},
         {"walk_in_trees", by_trees({0.3, 3.4, 0.5, 1.6}), 64, usual, {"cornell-box", "floating-panels"}},
         {"walk_split", by_trees({7.0}), 32, usual, {"cornell-box", "floating-panels"}},
         {"walk_thinned", by_trees({0.2, 0.6, 0.6, 0.6}), 128, thinned, {"cornell-box", "floating-panels"}},

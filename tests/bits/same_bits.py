@@ -28,7 +28,7 @@ METHODS = {
     "walk": PATHS,
     "guided": [*PATHS, "--patches", "100", "--directions", "256"],
     "corrected": [*PATHS, "--patches", "100", "--directions", "16"],
-    **{name: PATHS for name in ("surface", "light", "bidirectional", "mixed", "photon", "cache", "metropolis", "classic", "pointwise")},
+    **{name: PATHS for name in ("surface", "light", "shooting", "bidirectional", "mixed", "photon", "cache", "metropolis", "classic", "pointwise")},
     **{name: FIELDS for name in ("patches", "matrix", "gather")},
 }
 # Of some scenes alone: its pilot takes longer than all others together.
@@ -36,7 +36,7 @@ SCENES_OF = {"mixed": ("cornell-box", "glossy-floor")}
 # Of the Cornell box alone.
 OPTIONS = {
     "walk": ["--direct mis-solid-angle --lights all", "--direct bsdf --roulette albedo", "--direct light --lights power --split 3,2",
-             "--direct surfaces --roulette 0.7", "--sampler independent --plan full", "--direct mis-balance --lights contribution --tail 0.2", "--reuse --roulette 0.8", "--tree sum"],
+             "--direct surfaces --roulette 0.7", "--sampler independent --plan full", "--direct mis-balance --lights contribution --tail 0.2", "--reuse --roulette 0.8", "--tree sum", "--indirect uniform"],
     "light": ["--roulette throughput"],
     "bidirectional": ["--direct mis-balance --ways 2", "--roulette albedo"],
     "photon": ["--gather --photons 3000", "--radius 20"],

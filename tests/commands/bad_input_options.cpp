@@ -90,10 +90,15 @@ TEST_F(BadInputOptions, BiasAllowed) {
 }
 
 TEST_F(BadInputOptions, Tree) {
-    for (const std::string what : {"0", "9", "all"})
-        EXPECT_TRUE(refusal({"--tree", what}).starts_with("--tree: '" + what + "' is not sum or a bounce from 1 to 8\n"));
+    for (const std::string what : {"0", "9", "all", "equal", "equal-1", "equal-17", "equal-2.5"})
+        EXPECT_TRUE(refusal({"--tree", what})
+                        .starts_with("--tree: '" + what + "' is not sum, a bounce from 1 to 8, or equal-2 to equal-16\n"));
     EXPECT_EQ(refusal({"--tree", "sum", "--split", "2,2"}), "--tree chooses what split and roulette say; take it alone\n");
     EXPECT_EQ(refusal({"--tree", "5", "-n", "4"}), "--tree 5: the last bounce that has a picture is 4\n");
+    EXPECT_EQ(refusal({"--tree", "equal-2", "-n", "9"}),
+              "--tree makes 2 branches at 9 reflections 512 paths, where 256 are the most; take fewer bounces\n");
+    for (const std::string other : {"--reuse", "--tree=sum"})
+        EXPECT_EQ(refusal({"--indirect", "cosine", other}), "--indirect is for plain walks; take it without tree and reuse\n");
 }
 
 TEST_F(BadInputOptions, Reuse) {

@@ -68,8 +68,8 @@ TEST_F(Health, OrdinaryNoiseOfFewSamples) {
 
 TEST_F(Health, OfOtherMethods) {
     write("scene.xml", plates());
-    for (const char* method :
-         {"light", "bidirectional", "surface", "classic", "pointwise", "guided", "corrected", "metropolis", "photon", "cache"}) {
+    for (const char* method : {"light", "shooting", "bidirectional", "surface", "classic", "pointwise", "guided", "corrected",
+                               "metropolis", "photon", "cache"}) {
         render("scene.xml", method, {"--method", method, "-n", "2", "--spp", "4", "--quiet"});
         const nlohmann::json found = health(method);
         EXPECT_EQ(found.at("sick"), false) << method << found.at("complaints");

@@ -8,26 +8,12 @@
 namespace neumann::method_text_test {
 
 // For each option, a value that is not the usual one.
-const std::map<std::string, std::string> values{{"direct", "mis-balance"},
-                                                {"lights", "power"},
-                                                {"roulette", "0.875"},
-                                                {"split", "8,3"},
-                                                {"sampler", "independent"},
-                                                {"plan", "full"},
-                                                {"patches", "345"},
-                                                {"directions", "1024"},
-                                                {"ways", "3"},
-                                                {"importance", "true"},
-                                                {"photons", "5000"},
-                                                {"radius", "0.25"},
-                                                {"gather", "true"},
-                                                {"chain", "64"},
-                                                {"adaptive", "sum"},
-                                                {"bias-allowed", "true"},
-                                                {"tree", "3"},
-                                                {"reuse", "true"},
-                                                {"records", "split-sphere"},
-                                                {"accuracy", "0.5"}};
+const std::map<std::string, std::string> values{
+    {"direct", "mis-balance"}, {"lights", "power"}, {"roulette", "0.875"},  {"split", "8,3"},  {"sampler", "independent"},
+    {"plan", "full"},          {"patches", "345"},  {"directions", "1024"}, {"ways", "3"},     {"importance", "true"},
+    {"photons", "5000"},       {"radius", "0.25"},  {"gather", "true"},     {"chain", "64"},   {"adaptive", "sum"},
+    {"bias-allowed", "true"},  {"tree", "3"},       {"indirect", "cosine"}, {"reuse", "true"}, {"records", "split-sphere"},
+    {"accuracy", "0.5"}};
 
 TEST(MethodText, EveryMethodComesBackFromTextAndJson) {
     for (const std::string& name : method_names()) {

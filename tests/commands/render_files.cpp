@@ -127,6 +127,7 @@ TEST_F(RenderFiles, FourBounces) {
     EXPECT_EQ(run.at("options"), nlohmann::json({{"bounces", 3},
                                                  {"method", "walk"},
                                                  {"direct", "mis"},
+                                                 {"indirect", "bsdf"},
                                                  {"lights", "mixed"},
                                                  {"plan", "auto"},
                                                  {"roulette", "none"},

@@ -172,7 +172,7 @@ TEST_F(RenderUnmet, BlackStaysBlack) {
 // In every method that samples.
 TEST_F(RenderUnmet, InAllMethods) {
     write("scene.xml", hidden_lamp(0.0));
-    for (const std::string method : {"walk", "guided", "surface", "light", "bidirectional", "classic", "pointwise"}) {
+    for (const std::string method : {"walk", "guided", "surface", "light", "shooting", "bidirectional", "classic", "pointwise"}) {
         render("scene.xml", method, {"-n", "1", "--spp", "4", "--method", method, "--quiet"});
         const PixelEstimate bounce = read_exr((path(method) / "bounce_001.exr").string());
         // In full shadow, and beside the floor.

@@ -278,11 +278,10 @@ TEST_F(StudyCommand, Refused) {
         EXPECT_FALSE(std::filesystem::exists(path("new")));
         return message;
     };
-    EXPECT_EQ(
-        refusal({"--methods", "walk,wlak"}),
-        "--methods wlak: method: wlak not in "
-        "{auto,walk,guided,corrected,surface,light,bidirectional,mixed,photon,cache,metropolis,classic,pointwise,matrix,gather,"
-        "patches}; did you mean 'walk'?\n");
+    EXPECT_EQ(refusal({"--methods", "walk,wlak"}),
+              "--methods wlak: method: wlak not in "
+              "{auto,walk,guided,corrected,surface,light,shooting,bidirectional,mixed,photon,cache,metropolis,classic,pointwise,"
+              "matrix,gather,patches}; did you mean 'walk'?\n");
     EXPECT_EQ(refusal({"--methods", "walk,auto"}),
               "--methods auto: a study compares methods, and auto is one of the others; name those that it is to compare\n");
     EXPECT_EQ(refusal({"--methods", "walk,walk"}), "--methods: 'walk' is given twice\n");
@@ -298,7 +297,7 @@ TEST_F(StudyCommand, Refused) {
               "--methods walk:patches=100: patches belongs to guided, corrected, matrix, gather and patches, not to walk\n");
     EXPECT_EQ(refusal({"--methods", "matrix:sampler=sobol", "--samples", "4"}),
               "--methods matrix:sampler=sobol: sampler belongs to auto, walk, guided, corrected, surface, light, "
-              "bidirectional, mixed, photon, cache, metropolis, "
+              "shooting, bidirectional, mixed, photon, cache, metropolis, "
               "classic and pointwise, not to matrix\n");
     EXPECT_EQ(refusal({"--methods", "patches:importance=true"}),
               "--methods patches:importance=true: ways and importance have no place in a study, which compares pictures of "

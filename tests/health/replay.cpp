@@ -99,16 +99,16 @@ TEST_P(ReplayEvery, StepsBringWhatTheSampleIsWorth) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Methods, ReplayEvery,
-                         testing::Values(Case{"Walk", "walk"}, Case{"WalkIndependent", "walk:sampler=independent"},
-                                         Case{"WalkSplit", "walk:split=3,2"}, Case{"WalkTree", "walk:tree=3"},
-                                         Case{"WalkReuse", "walk:reuse=true"}, Case{"Guided", "guided:patches=100:directions=1024"},
-                                         Case{"Photon", "photon:photons=1000"}, Case{"Metropolis", "metropolis:chain=3"},
-                                         Case{"Surface", "surface"}, Case{"Classic", "classic"}, Case{"Light", "light"},
-                                         Case{"LightIndependent", "light:sampler=independent"},
-                                         Case{"Bidirectional", "bidirectional"},
-                                         Case{"BidirectionalSplit", "bidirectional:split=3,2"}),
-                         [](const auto& info) { return std::string(info.param.name); });
+INSTANTIATE_TEST_SUITE_P(
+    Methods, ReplayEvery,
+    testing::Values(Case{"Walk", "walk"}, Case{"WalkIndependent", "walk:sampler=independent"}, Case{"WalkSplit", "walk:split=3,2"},
+                    Case{"WalkTree", "walk:tree=3"}, Case{"WalkReuse", "walk:reuse=true"},
+                    Case{"Guided", "guided:patches=100:directions=1024"}, Case{"Photon", "photon:photons=1000"},
+                    Case{"Metropolis", "metropolis:chain=3"}, Case{"Surface", "surface"}, Case{"Classic", "classic"},
+                    Case{"Light", "light"}, Case{"Shooting", "shooting"}, Case{"WalkUniform", "walk:indirect=uniform"},
+                    Case{"WalkEqualTree", "walk:tree=equal-2"}, Case{"LightIndependent", "light:sampler=independent"},
+                    Case{"Bidirectional", "bidirectional"}, Case{"BidirectionalSplit", "bidirectional:split=3,2"}),
+    [](const auto& info) { return std::string(info.param.name); });
 INSTANTIATE_TEST_SUITE_P(MethodsSlow, ReplayEvery,
                          testing::Values(Case{"Corrected", "corrected:patches=100:directions=16"},
                                          Case{"Cache", "cache:accuracy=1:directions=16"}),

@@ -15,7 +15,7 @@ from support import Case, cornell, furnace
 METHODS = {kind.name: kind for kind in Method.__subclasses__()}
 # A legal value of each option.
 LEGAL = {
-    "direct": "mis", "lights": "power", "roulette": 0.9, "split": (2, 2), "sampler": "independent", "tree": "sum", "reuse": True, "adaptive": "sum", "bias_allowed": True, "plan": "full",
+    "direct": "mis", "lights": "power", "roulette": 0.9, "split": (2, 2), "sampler": "independent", "indirect": "cosine", "tree": "sum", "reuse": True, "adaptive": "sum", "bias_allowed": True, "plan": "full",
     "patches": 50, "directions": 16, "photons": 100, "radius": 0.5, "gather": True, "records": "hessian", "accuracy": 0.1, "chain": 64, "ways": 1,
     "importance": True,
 }  # fmt: skip

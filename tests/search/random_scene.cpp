@@ -10,7 +10,7 @@ namespace {
 
 // All methods have their turn; those that take long more rarely.
 std::vector<std::string> choose_methods(RandomNumbers& random) {
-    static const std::array<const char*, 11> walks{"walk:direct=bsdf",
+    static const std::array<const char*, 13> walks{"walk:direct=bsdf",
                                                    "walk:direct=projected",
                                                    "walk:direct=mis-projected",
                                                    "walk:direct=light:lights=all",
@@ -19,6 +19,8 @@ std::vector<std::string> choose_methods(RandomNumbers& random) {
                                                    "walk:split=2,3",
                                                    "walk:reuse=true",
                                                    "walk:tree=sum",
+                                                   "walk:indirect=uniform",
+                                                   "walk:indirect=cosine",
                                                    "walk:adaptive=all",
                                                    "walk:plan=full"};
     std::vector<std::string> methods{"walk", "bidirectional"};
@@ -30,6 +32,7 @@ std::vector<std::string> choose_methods(RandomNumbers& random) {
     some("guided", 0.3);
     some("surface", 0.2);
     some("light", 0.5);
+    some("shooting", 0.2);
     some("mixed", 0.02);
     some("photon", 0.3);
     some("photon:gather=true", 0.15);

@@ -199,4 +199,10 @@ TEST(TreeRatios, SplitTowardsTheBounceThatIsWanted) {
     EXPECT_THROW((void)tree_ratios(scene, 3, {4}), InputError);
 }
 
+TEST(TreeRatios, AreTheSameEverywhereIfThisIsAskedFor) {
+    const Scene scene = read_scene(SCENES "/cornell-box/cornell-box.xml", {{"res", "24"}});
+    EXPECT_EQ(tree_ratios(scene, 8, {{}, 2})->of_depths, std::vector<double>(8, 2.0));
+    EXPECT_THROW((void)tree_ratios(scene, 9, {{}, 2}), InputError) << "512 paths";
+}
+
 }  // namespace neumann::splitting_test

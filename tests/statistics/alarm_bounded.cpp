@@ -50,6 +50,7 @@ std::shared_ptr<const PathMethod> made(const std::string& method, const Scene& s
     if (method == "pointwise") return physics::paths_of(method::Pointwise{});
     if (method == "bidirectional") return std::make_shared<const BidirectionalPaths>();
     if (method == "light") return std::make_shared<const LightPaths>();
+    if (method == "shooting") return physics::paths_of(method::Shooting{});
     if (method == "surface") return physics::paths_of(method::Surface{});
     if (method == "classic") return physics::paths_of(method::Classic{});
     return plain_walks();
@@ -82,6 +83,20 @@ TEST(AlarmSlow, OneSceneHasOneVerdict) {
         }
     std::printf("glass and metals: %d of %d tails look infinite and are not\n", rare, looked_at);
     EXPECT_GT(looked_at, 30);
+}
+
+// Whatever becomes of later bounces, a sample of bounce 0 is at most the largest Le, unless lamps are joined to the lens.
+TEST(BoundedSamples, OfEmissionThatRaysMeet) {
+    const Scene scene = balls(4);
+    for (const char* method : {"walk", "surface", "shooting", "classic", "light"}) {
+        RenderedSeries series = render_series(scene, settings_of(method, scene, 1), {8, std::nullopt, std::nullopt});
+        LargestSamples& emission = series.tally.largest[0];
+        for (int i = 1; i <= 1000; ++i) emission.add(1e9 * std::pow(i, -1.0 / 1.2));
+        emission.add_count(1'000'000);
+        const SeriesReport report = report_series(scene, series, RestVerdict::measured);
+        EXPECT_EQ(report.bounces[0].infinite_variance, std::string(method) == "light") << method;
+        EXPECT_NE(report.bounces[0].infinite_variance, report.bounces[0].rare_large_samples) << method;
+    }
 }
 
 // The rest, with samples added whose tail is that of an infinite variance: where that cannot be, they are rare and no more.
@@ -140,7 +155,7 @@ TEST(BoundedSamples, AreKnownByMethod) {
     EXPECT_TRUE(bounded(sky, "walk", DirectLight::bsdf));
     EXPECT_FALSE(bounded(sky, "walk", DirectLight::light));
     EXPECT_FALSE(bounded(sky, "walk", DirectLight::surfaces));
-    for (const char* method : {"surface", "light", "classic"}) EXPECT_FALSE(bounded(sky, method));
+    for (const char* method : {"surface", "light", "shooting", "classic"}) EXPECT_FALSE(bounded(sky, method));
     SamplingSettings ways;
     ways.method = std::make_shared<const BidirectionalPaths>(BidirectionalPaths::Quantities::ways);
     EXPECT_FALSE(samples_are_bounded(sky, ways));

@@ -27,8 +27,8 @@ ROOT = Path(__file__).resolve().parents[3]
 MANUAL = """methods measurements limits explorer error-bars health matrices machines python speed scenes collada gltf blender pbrt tungsten
 counting building""".split()
 # The methods in the order of `render --help`.
-METHODS = """auto walk guided corrected surface light bidirectional mixed photon cache metropolis classic pointwise matrix gather
-patches""".split()
+METHODS = """auto walk guided corrected surface light shooting bidirectional mixed photon cache metropolis classic pointwise matrix
+gather patches""".split()
 TUTORIALS = "my-first-scene lecture-figure wrong-bounce paper-figure room-from-blender k-in-scipy".split()
 
 

@@ -39,6 +39,7 @@ from ._method_options import (
     Patches,
     Photon,
     Pointwise,
+    Shooting,
     Surface,
     Walk,
 )
@@ -91,6 +92,7 @@ __all__ = [
     "Scene",
     "Solutions",
     "Study",
+    "Shooting",
     "Surface",
     "Symmetrised",
     "Unbounced",

@@ -12,8 +12,9 @@ struct MethodsForScene {
     std::vector<std::string> left_out;  // the messages of those that refuse the scene, which begin with their names
 };
 
-// All methods except auto and mixed, which consist of others, classic, which leaves paths out, and pointwise, which is slow and a
-// test of the others. Each is tried once. Throws InputError if none can render the scene. Returns nothing if it was stopped.
+// All methods except auto and mixed, which consist of others, classic and shooting, which leave paths out, and pointwise, which is
+// slow and a test of the others. Each is tried once. Throws InputError if none can render the scene. Returns nothing if it was
+// stopped.
 std::optional<MethodsForScene> methods_for_scene(int bounces, std::uint64_t seed, const Scene& scene, const Pilot& pilot,
                                                  const Watch& watch);
 

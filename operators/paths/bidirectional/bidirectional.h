@@ -173,7 +173,8 @@ std::uint64_t Bidirectional::trace_camera_half(std::span<const CameraRay> rays, 
                     if (!is_black(edge.found.value)) work.edges.push_back({i, edge});
                 };
                 for (int light_sample = 0; light_sample < light_samples; ++light_sample) {
-                    const Vec2 u = samplers[i].next2();
+                    Vec2 u = samplers[i].next2();
+                    u.x = LightSampleNumber{0, light_sample, light_samples}.in_stratum(u.x);
                     if (ways.makes(i, 1, bounce + 1))
                         take(edge_to_light(*scene_, emission_, lights_, h, z, side, bounce, rest, u),
                              splits ? 1.0 / light_samples : share);
@@ -207,7 +208,7 @@ std::uint64_t Bidirectional::trace_camera_half(std::span<const CameraRay> rays, 
                 const Frame& frame = side.p.frame;
                 const BsdfSample sampled = sample(*side.bsdf, side.p, frame.to_local(z.wo), samplers[i].next2());
                 z.beta *= sampled.weight;
-                if (sampled.pdf == 0.0 || is_black(z.beta)) return false;
+                if (sampled.pdf == 0.0 || is_black(z.beta) || !ways.goes_on(sampled.pdf)) return false;
                 if (!ending.live(bounce, z, max_component(sampled.weight), samplers[i])) return false;
                 z.w = frame.to_world(sampled.wi);
                 z.from = z.x.position;

@@ -219,7 +219,7 @@ struct CorrectedWalk::Steps : WalkSteps<CorrectedWalkers> {
             walkers.keep_if([&](CorrectedWalker& w, std::uint32_t i) {
                 const SurfaceSide side = scene.materials.side(w.x, w.wo);
                 if (!side.bsdf) return false;
-                choose_light_sample(direct, number, MaterialContinuation(), w.directions, side, side.p.frame.to_local(w.wo),
+                choose_light_sample(direct, {number}, MaterialContinuation(), w.directions, side, side.p.frame.to_local(w.wo),
                                     sampler_at(i), w);
                 return true;
             });

@@ -91,7 +91,7 @@ void sample_reflections(Steps& steps, Samplers& samplers, int bounce, std::size_
             const Vec3 wo = side.p.frame.to_local(w.wo);
             w.shadow_ray.value = Rgb(0.0);
             if (takes_light(i, w, side, number) && steps.direct.light_samples() > 0)
-                choose_light_sample(steps.direct, number % light_samples, MaterialContinuation(), 1.0, side, wo, samplers[i], w);
+                choose_light_sample(steps.direct, {number % light_samples}, MaterialContinuation(), 1.0, side, wo, samplers[i], w);
             if (number == light_samples) w.leave(side, MaterialContinuation().sample(side, wo, samplers[i]));
             return true;
         });

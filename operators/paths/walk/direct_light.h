@@ -14,6 +14,15 @@ namespace neumann {
 // Whether the strategy cannot find some light: no ray meets a light without extent, and points on surfaces miss an environment.
 bool misses_light(DirectLight direct, const Emitters& emitters);
 
+// One of the light samples at a vertex: the number of the light, of LightChoice::all, and the stratum of the number that chooses
+// among lights and, on a light, in one direction. Of n samples light j then gets n p_j, rounded up or down.
+struct LightSampleNumber {
+    std::size_t light = 0;
+    int stratum = 0, strata = 1;
+
+    double in_stratum(double u) const { return strata == 1 ? u : (stratum + u) / strata; }
+};
+
 class DirectLightSampler {
 public:
     DirectLightSampler(const Scene& scene, const DirectLightSettings& settings);
@@ -29,19 +38,23 @@ public:
     // A light sample before its shadow ray is cast. The ray finds whether `point` is visible or, if directions are sampled, what is
     // visible along `w`. `weight` is Le / pdf of a point, or 1 / pdf of a direction, which multiplies the Le that is found.
     template <class Sampler>
-    LightSample sample(const SurfaceSide& side, Sampler& sampler, std::size_t number) const {
+    LightSample sample(const SurfaceSide& side, Sampler& sampler, const LightSampleNumber& number) const {
         switch (settings_.direct) {
             case DirectLight::hemisphere:
             case DirectLight::cosine: {
-                const Vec2 u = sampler.next2();
+                Vec2 u = sampler.next2();
+                u.x = number.in_stratum(u.x);
                 return sample_direction(side, u, transmits(*side.bsdf) ? sampler.next() : 0.0);
             }
             case DirectLight::surfaces: {
-                const double choice = sampler.next();
+                const double choice = number.in_stratum(sampler.next());
                 return sample_surface(side.p, choice, sampler.next2());
             }
-            default:
-                return lights_.sample(receiver(side), sampler.next2(), number);
+            default: {
+                Vec2 u = sampler.next2();
+                u.x = number.in_stratum(u.x);
+                return lights_.sample(receiver(side), u, number.light);
+            }
         }
     }
     // Whether sample() finds points on surfaces that shine evenly, independently of the vertex; sample_even_point() samples such a

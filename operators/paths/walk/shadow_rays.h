@@ -18,8 +18,8 @@ inline Rgb reflected_light(const Rgb& beta, const SurfaceSide& side, const Vec3&
 // R chooses the walk's light sample and stores it in w.shadow_ray. Its MIS weight is against the pdf of `distribution`
 // (continuation.h), which draws `directions` directions for each light sample.
 template <class Distribution, class Sampler>
-void choose_light_sample(const DirectLightSampler& direct, std::size_t number, const Distribution& distribution, double directions,
-                         const SurfaceSide& side, const Vec3& wo, Sampler& sampler, Walker& w) {
+void choose_light_sample(const DirectLightSampler& direct, const LightSampleNumber& number, const Distribution& distribution,
+                         double directions, const SurfaceSide& side, const Vec3& wo, Sampler& sampler, Walker& w) {
     w.shadow_ray.value = Rgb(0.0);
     const LightSample light = direct.sample(side, sampler, number);
     if (!(light.pdf > 0.0)) return;

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace neumann {
 
@@ -20,6 +21,16 @@ constexpr double least_ratio = 0.1, largest_ratio = 16.0, most_branches = 256.0;
 std::shared_ptr<const TreeRatios> tree_ratios(const Scene& scene, int bounces, const TreeGoal& goal, const Watch& watch) {
     if (goal.bounce && *goal.bounce > bounces)
         throw OptionError("tree", fmt::format("{}: the last bounce that has a picture is {}", *goal.bounce, bounces));
+    if (goal.branches) {
+        const double paths = std::pow(*goal.branches, bounces);
+        if (paths > most_branches)
+            throw OptionError(
+                "tree", fmt::format(" makes {} branches at {} reflections {:.3g} paths, where {:.0f} are the most; take fewer "
+                                    "bounces",
+                                    *goal.branches, bounces, paths, most_branches));
+        return std::make_shared<const TreeRatios>(
+            TreeRatios{std::vector<double>(static_cast<std::size_t>(bounces), static_cast<double>(*goal.branches))});
+    }
     const int depths = goal.bounce.value_or(std::min(bounces, most_depths_of_tree));
     const TreePilot pilot = measure_tree(scene, depths, samples_of_pilot, tree_stream, watch);
     const std::vector<double> numbers = best_tree(goal.bounce ? pilot.bounces.back() : pilot.sum);

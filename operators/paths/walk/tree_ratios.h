@@ -1,4 +1,4 @@
-// The ratios for walk_tree(): the best numbers for the depths of a scene, which a pilot measures.
+// The ratios for walk_tree(): the best numbers for the depths of a scene, which a pilot measures, or equal ones.
 #pragma once
 
 #include "core/scene/scene.h"
@@ -11,9 +11,10 @@
 
 namespace neumann {
 
-// The goal of a tree: the picture of a bounce, or the sum of all.
+// The goal of a tree: the picture of a bounce, or the sum of all; or, to compare, this number of branches at every reflection, as
+// when distribution ray tracing casts equally many rays everywhere (Cook, Porter and Carpenter 1984).
 struct TreeGoal {
-    std::optional<int> bounce = {};
+    std::optional<int> bounce = {}, branches = {};
     bool operator==(const TreeGoal&) const = default;
 };
 
@@ -26,7 +27,7 @@ struct TreeRatios {
     std::uint64_t rays = 0;  // cast by the pilot
 };
 
-// The ratios are the same for all seeds. Throws InputError if there is no such bounce, and Stopped.
+// The ratios are the same for all seeds. Throws InputError if there is no such bounce or there are too many branches, and Stopped.
 std::shared_ptr<const TreeRatios> tree_ratios(const Scene& scene, int bounces, const TreeGoal& goal, const Watch& watch = {});
 
 }  // namespace neumann

@@ -55,8 +55,10 @@ struct ContinuedSteps : WalkSteps<Walkers> {
                 const Vec3 wo = side.p.frame.to_local(w.wo);
                 const auto& distribution = continuation.at(side, vertex_data[i]);
                 if (light_samples > 0)
-                    choose_light_sample(direct, number % direct.light_samples(), distribution, directions_of_bounce, side, wo,
-                                        samplers[i], w);
+                    choose_light_sample(direct,
+                                        {number % direct.light_samples(), static_cast<int>((number - 1) / direct.light_samples()),
+                                         first ? split.lights : 1},
+                                        distribution, directions_of_bounce, side, wo, samplers[i], w);
                 if (number < light_samples) return true;
                 BsdfSample sampled;
                 if constexpr (Continuation::joins_points)

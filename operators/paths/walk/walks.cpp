@@ -1,6 +1,7 @@
 #include "operators/paths/walk/walks.h"
 
 #include "operators/paths/walk/guided_continuation.h"
+#include "operators/paths/walk/hemisphere_continuation.h"
 #include "operators/paths/walk/walk.h"
 
 namespace neumann {
@@ -29,6 +30,11 @@ void walk_on(const Scene& scene, const DirectLightSampler& direct, const WalkSet
 
 void walk_on(const Scene& scene, const DirectLightSampler& direct, const WalkSettings& settings, std::span<Sampler> samplers,
              Walkers& walkers, TermSamples& out, const GuidedContinuation& continuation) {
+    walk_on(scene, scene.geometry, direct, settings, samplers, walkers, out, continuation);
+}
+
+void walk_on(const Scene& scene, const DirectLightSampler& direct, const WalkSettings& settings, std::span<Sampler> samplers,
+             Walkers& walkers, TermSamples& out, const HemisphereContinuation& continuation) {
     walk_on(scene, scene.geometry, direct, settings, samplers, walkers, out, continuation);
 }
 

@@ -14,6 +14,7 @@
 namespace neumann {
 
 class GuidedContinuation;
+class HemisphereContinuation;
 
 // Finds the first vertices along camera rays and adds Le there.
 void start_walks(const Scene& scene, const WalkSettings& settings, std::span<const CameraRay> rays, Walkers& walkers,
@@ -28,6 +29,8 @@ void walk_on(const Scene& scene, const DirectLightSampler& direct, const WalkSet
              Walkers& walkers, TermSamples& out, const SpecularContinuation& continuation);
 void walk_on(const Scene& scene, const DirectLightSampler& direct, const WalkSettings& settings, std::span<Sampler> samplers,
              Walkers& walkers, TermSamples& out, const GuidedContinuation& continuation);
+void walk_on(const Scene& scene, const DirectLightSampler& direct, const WalkSettings& settings, std::span<Sampler> samplers,
+             Walkers& walkers, TermSamples& out, const HemisphereContinuation& continuation);
 
 // Samples all terms along camera rays.
 template <class Continuation>

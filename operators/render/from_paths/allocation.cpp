@@ -47,7 +47,7 @@ PixelSpread spread_of(std::span<const Rgb> samples, std::size_t pixels, std::siz
 }  // namespace
 
 std::vector<double> best_numbers(const BlockCosts& all, LeastError least) {
-    const std::size_t K = all.errors(), B = all.blocks, bounces = least == LeastError::of_all ? K - 1 : K;
+    const std::size_t K = all.errors(), B = all.blocks, bounces = least.of == LeastError::Of::all ? K - 1 : K;
     const auto normalised = [](std::vector<double> weights) {
         const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
         for (double& w : weights) w /= sum;
@@ -73,7 +73,7 @@ std::vector<double> best_numbers(const BlockCosts& all, LeastError least) {
                 if (all.variance(k)[b] > 0.0) errors[k] += all.variance(k)[b] / numbers[b];
         const double largest = *std::max_element(errors.begin(), errors.begin() + static_cast<std::ptrdiff_t>(bounces));
         double size = std::log(largest);
-        if (least == LeastError::of_all)
+        if (least.of == LeastError::Of::all)
             for (const double e : errors) size += std::log(e) / static_cast<double>(K);
         if (size < smallest) {
             smallest = size;
@@ -81,7 +81,7 @@ std::vector<double> best_numbers(const BlockCosts& all, LeastError least) {
         }
         for (std::size_t k = 0; k < bounces; ++k) of_largest[k] *= std::sqrt(errors[k] / largest);
         of_largest = normalised(of_largest);
-        if (least != LeastError::of_all) {
+        if (least.of != LeastError::Of::all) {
             weights = of_largest;
             continue;
         }
@@ -164,7 +164,6 @@ std::shared_ptr<const Allocation> allocate(const Scene& scene, const SamplingSet
     };
     if (least.bounce) {
         add(static_cast<std::size_t>(*least.bounce));
-        least = LeastError::of_bounces;
     } else {
         if (least != LeastError::of_sum)
             for (std::size_t q = 0; q < terms; ++q) add(q);

@@ -41,8 +41,8 @@ double error_of_sum(const MixtureCosts& all, const std::vector<double>& errors) 
 }
 
 double least_of(const MixtureCosts& all, const std::vector<double>& errors, double of_sum, LeastError least) {
-    if (least == LeastError::of_bounces || least.bounce) return *std::ranges::max_element(errors);
-    if (least == LeastError::of_sum) return of_sum;
+    if (least.of == LeastError::Of::bounces) return *std::ranges::max_element(errors);
+    if (least.of == LeastError::Of::sum) return of_sum;
     double logarithms = std::log(of_sum);
     for (const double e : errors) logarithms += std::log(e);
     return std::exp(logarithms / static_cast<double>(all.errors + 1));
@@ -64,7 +64,6 @@ std::vector<double> best_mixture(const MixtureCosts& all, LeastError least) {
         }
         for (std::size_t k = 0; k < all.errors; ++k) switch (least.of) {
                 case LeastError::Of::bounces:
-                case LeastError::Of::bounce:
                     weights[k] *= std::sqrt(errors[k] / size);
                     break;
                 case LeastError::Of::sum:

@@ -6,8 +6,8 @@
 namespace neumann {
 
 struct LeastError {
-    enum class Of { bounces, sum, all, bounce } of;
-    std::optional<int> bounce = {};  // of `bounce`
+    enum class Of { bounces, sum, all } of;
+    std::optional<int> bounce = {};  // the only one that counts among the bounces
 
     // The largest relative error of a bounce.
     static const LeastError of_bounces;
@@ -16,7 +16,7 @@ struct LeastError {
     // All of these together, so that none is bought with much of another.
     static const LeastError of_all;
     // That of a single bounce, the n-th.
-    static constexpr LeastError of_bounce(int n) { return {Of::bounce, n}; }
+    static constexpr LeastError of_bounce(int n) { return {Of::bounces, n}; }
 
     bool operator==(const LeastError&) const = default;
 };

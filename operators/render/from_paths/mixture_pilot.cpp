@@ -174,7 +174,6 @@ Choice choose(Contenders contenders, double budget, const Grid& grid, LeastError
     go_on(all_replicates - first_replicates);
 
     chosen.measured = measure(all, budget, grid, least);
-    if (least.bounce) least = LeastError::of_bounces;  // of which there is one
     MixtureCosts& costs = chosen.measured.costs;
     for (;;) {
         chosen.numbers = best_numbers(costs, least);

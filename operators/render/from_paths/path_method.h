@@ -24,6 +24,7 @@ struct SamplingSettings;
 enum class Paths {
     all,
     without_specular,  // no reflection by a delta lobe (mirror, glass)
+    without_caustics,  // no light by a delta lobe onto the first vertex that the camera sees, by mirrors and glass or without
     seen_directly,     // the vertex that the camera sees is on a surface and does not scatter by a delta lobe
     specular           // all reflections are by delta lobes, except the last one, which samples the lights
 };

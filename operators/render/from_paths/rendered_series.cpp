@@ -78,6 +78,7 @@ RenderedSeries render_series(const Scene& scene, const PictureSampler::Settings&
     series.replicate_size = settings.replicate_size;
     series.sizes = sampler.layout().sizes();
     series.samples_are_bounded = samples_are_bounded(scene, settings);
+    series.emission_is_seen = settings.method->starts_at_camera();
     series.rest_has_finite_variance = rest_has_finite_variance(scene, settings);
     const Stopwatch clock;
     const auto seconds_so_far = [&, before = series.seconds] { return before + clock.seconds(); };

@@ -43,6 +43,7 @@ struct RenderedSeries {
     std::vector<SeedRange> merged = {};
     double seconds = 0.0;
     bool samples_are_bounded = false;  // of bounces 0 … N (bounded_samples.h)
+    bool emission_is_seen = false;     // samples of bounce 0 are Le where camera rays end, which is bounded
     bool rest_has_finite_variance = false;
 };
 

@@ -31,6 +31,8 @@ std::shared_ptr<const PathSampler> WalkPaths::sampler(const Scene& scene, const 
         estimator = std::make_unique<const ReusingEstimator>(scene, settings.walk, settings.replicate_size, sharing_pixels_);
     else if (tree_)
         estimator = std::make_unique<const TreeEstimator>(scene, settings.walk, tree_);
+    else if (directions_)
+        return walk_sampler(scene, settings, HemisphereContinuation(*directions_));
     else
         return walk_sampler(scene, settings, MaterialContinuation());
     return std::make_shared<const EstimatorSampler>(scene, settings, std::move(estimator));
@@ -40,6 +42,7 @@ double WalkPaths::walks_worth(int, std::span<const double> rays_of_walk) const {
     return tree_ ? walks_of_tree(tree_->of_depths, rays_of_walk) : 1.0;
 }
 
-bool WalkPaths::is_bounded(const SamplingSettings& settings) const { return settings.weighs_directions(); }
+// Lobes have no bound that holds for other directions than their own.
+bool WalkPaths::is_bounded(const SamplingSettings& settings) const { return settings.weighs_directions() && !directions_; }
 
 }  // namespace neumann

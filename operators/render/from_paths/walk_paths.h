@@ -1,8 +1,12 @@
-// The walk: paths from the camera sample directions by the BSDF. It may also be a tree, or use its neighbours' tails.
+// The walk: paths from the camera sample directions by the BSDF. It may also be a tree, use its neighbours' tails, or sample
+// directions over the hemisphere.
 #pragma once
 
+#include "operators/paths/walk/hemisphere_continuation.h"
 #include "operators/paths/walk/tree_ratios.h"
 #include "operators/render/from_paths/path_method.h"
+
+#include <optional>
 
 namespace neumann {
 
@@ -13,6 +17,8 @@ public:
     explicit WalkPaths(std::shared_ptr<const TreeRatios> tree) : tree_(std::move(tree)) {}
     // This many consecutive pixels use each other's tails (reusing_walk.h).
     explicit WalkPaths(std::uint32_t sharing_pixels) : sharing_pixels_(sharing_pixels) {}
+    // Walks go on in directions of this density.
+    explicit WalkPaths(HemisphereDensity directions) : directions_(directions) {}
 
     // Null if walks are not trees.
     const TreeRatios* tree() const { return tree_.get(); }
@@ -29,6 +35,7 @@ public:
 private:
     std::shared_ptr<const TreeRatios> tree_;
     std::uint32_t sharing_pixels_ = 1;
+    std::optional<HemisphereDensity> directions_;
 };
 
 }  // namespace neumann

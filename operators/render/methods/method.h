@@ -3,6 +3,7 @@
 
 #include "core/scene/scene.h"
 #include "operators/paths/cache/cache_settings.h"
+#include "operators/paths/walk/hemisphere_continuation.h"
 #include "operators/paths/walk/left_out.h"
 #include "operators/paths/walk/tree_ratios.h"
 #include "operators/paths/walk/walk_settings.h"
@@ -97,9 +98,10 @@ struct Walk : PathOptions {
     DirectLightSettings direct = {};
     Roulette roulette = {};
     Split split = {};
-    std::optional<LeastError> adaptive = {};  // pixels have different numbers of samples, to make this error least
-    bool reuse = false;                       // walks of neighbouring pixels use each other's tails
-    std::optional<TreeGoal> tree = {};        // the walk splits and ends by the best numbers for this goal
+    std::optional<LeastError> adaptive = {};         // pixels have different numbers of samples, to make this error least
+    bool reuse = false;                              // walks of neighbouring pixels use each other's tails
+    std::optional<TreeGoal> tree = {};               // the walk splits and ends by the best numbers for this goal
+    std::optional<HemisphereDensity> indirect = {};  // directions in which it goes on; nothing: those of the material
 
     void expect_sense(bool lights) const;
     std::optional<Decisions> leaves_out() const;
@@ -164,6 +166,19 @@ struct Light : PathOptions {
     void expect(const Scene& scene) const;
     std::shared_ptr<const PathMethod> prepare(const Preparing& preparing) const;
     bool operator==(const Light&) const = default;
+};
+
+// Source shooting: walks from the lights, every vertex of which is joined to the point that the camera sees.
+struct Shooting : PathOptions {
+    static constexpr const char* name = "shooting";
+    static constexpr const char* help = "walks from the lights, joined to what the camera sees";
+    static constexpr bool is_studied = false;
+    static constexpr DirectLight direct_light = DirectLight::light;
+    Roulette roulette = {};
+
+    void expect(const Scene& scene) const;
+    std::shared_ptr<const PathMethod> prepare(const Preparing& preparing) const;
+    bool operator==(const Shooting&) const = default;
 };
 
 // Bidirectional path tracing: subpaths from both ends, joined at every pair of vertices.
@@ -304,9 +319,10 @@ struct Patches : FieldOptions {
 
 }  // namespace method
 
-using Method = std::variant<method::Auto, method::Walk, method::Guided, method::Corrected, method::Surface, method::Light,
-                            method::Bidirectional, method::Mixed, method::Photon, method::Cache, method::Metropolis,
-                            method::Classic, method::Pointwise, method::Matrix, method::Gather, method::Patches>;
+using Method =
+    std::variant<method::Auto, method::Walk, method::Guided, method::Corrected, method::Surface, method::Light, method::Shooting,
+                 method::Bidirectional, method::Mixed, method::Photon, method::Cache, method::Metropolis, method::Classic,
+                 method::Pointwise, method::Matrix, method::Gather, method::Patches>;
 
 inline const char* name_of(const Method& method) {
     return std::visit([](const auto& m) { return m.name; }, method);

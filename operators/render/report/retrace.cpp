@@ -4,6 +4,7 @@
 #include "operators/paths/photons/photon_paths.h"
 #include "operators/paths/reuse/reusing_walk.h"
 #include "operators/paths/walk/guided_continuation.h"
+#include "operators/paths/walk/hemisphere_continuation.h"
 #include "operators/paths/walk/path_group.h"
 #include "operators/paths/walk/tree_walk.h"
 #include "operators/paths/walk/walk.h"
@@ -69,6 +70,7 @@ template class WalkEstimator<MaterialContinuation>;
 template class WalkEstimator<SurfaceContinuation>;
 template class WalkEstimator<SpecularContinuation>;
 template class WalkEstimator<GuidedContinuation>;
+template class WalkEstimator<HemisphereContinuation>;
 
 std::vector<Rgb> EstimatorSampler::retrace(std::uint64_t replicate, std::uint32_t first, PathObserver& observer) const {
     PixelSamples samples;

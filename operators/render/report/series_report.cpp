@@ -45,8 +45,9 @@ SeriesReport report_series(const Scene& scene, const RenderedSeries& series, Res
         bounce.bound = bound_beyond(scene, i);
         bounce.tail = tail_index(series.tally.largest[i]);
         const bool heavy = bounce.tail && bounce.tail->variance_is_infinite();
-        bounce.infinite_variance = heavy && !series.samples_are_bounded;
-        bounce.rare_large_samples = heavy && series.samples_are_bounded;
+        const bool bounded = series.samples_are_bounded || (i == 0 && series.emission_is_seen);
+        bounce.infinite_variance = heavy && !bounded;
+        bounce.rare_large_samples = heavy && bounded;
         bounce.rays = series.tally.rays[i];
         bounce.seconds = all_rays > 0.0 ? series.seconds * static_cast<double>(bounce.rays) / all_rays : 0.0;
         report.bounces.push_back(bounce);
