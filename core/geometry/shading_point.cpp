@@ -120,7 +120,7 @@ Vec3 along_u(const Disk& disk, const SurfacePoint& p) {
     const Vec2 outwards = OnDisk(disk, p).outwards();
     return disk.u * outwards.x + disk.v * outwards.y;
 }
-// dp_dv of a disc. Mitsuba omits the factor 2π r, so its bump maps on discs depend on their size.
+// Up to version 3.9.0 Mitsuba omits the factor 2π r, so its bump maps on discs depend on their size.
 Vec3 along_v(const Disk& disk, const SurfacePoint& p) {
     const OnDisk at(disk, p);
     const Vec2 outwards = at.outwards();

@@ -107,6 +107,9 @@ TEST(TextureCoordinates, Disk) {
     expect_near(texture_coordinates(shade(d, {2, 2, 3})), {0.5, 0.0});
     expect_near(texture_coordinates(shade(d, {1, 1.75, 3})), {0.5, 0.75});
     expect_near(texture_coordinates(shade(d, {1, 2, 3})), {0.0, 0.0});
+    // Half way out, a turn is a circle of radius 1 along x and 1/4 along y.
+    expect_near(tangents(shade(d, {2, 2, 3})).dp_du, {2, 0, 0});
+    expect_near(tangents(shade(d, {2, 2, 3})).dp_dv, {0, 0.5 * pi, 0});
     for (const Vec2 a : {Vec2(0.3, 0.5), Vec2(-0.7, -0.1)})
         expect_consistent(d, {disk.center + disk.u * a.x + disk.v * a.y, disk.normal});
 }
@@ -131,6 +134,9 @@ TEST(TextureCoordinates, MeshesWithAndWithout) {
     auto& mesh = std::get<TriangleMesh>(t);
     const Vec3 p = mesh.vertices[0] * 0.5 + mesh.vertices[1] * 0.2 + mesh.vertices[2] * 0.3;
     expect_near(texture_coordinates(shade(t, p)), {0.2, 0.3});
+    expect_near(tangents(shade(t, p)).dp_du, {2, 0, 0});
+    expect_near(tangents(shade(t, p)).dp_dv, {0, 2, 1});
+    expect_consistent(t, {p, glm::normalize(Vec3(0, -1, 2))});
     mesh.uv = {{1, 0}, {3, 1}, {0, 5}};
     expect_near(texture_coordinates(shade(t, p)), {0.5 * 1 + 0.2 * 3, 0.2 * 1 + 0.3 * 5});
     expect_consistent(t, {p, glm::normalize(Vec3(0, -1, 2))});

@@ -131,12 +131,27 @@ TEST_F(XmlLights, EnvironmentMap) {
         15.0, 1e-12);
     EXPECT_NEAR(surrounds("envmap", file + quarter_turn, {-s, 0, -s}).r, 1.0, 1e-12);  // −z goes to −x
 
-    write_exr("small.exr", 4, {1, 2, 3, 4, 5, 6, 7, 8});
-    EXPECT_EQ(light_error("envmap", "<string name='filename' value='small.exr'/>"),
-              "scene.xml:3:25: 'small.exr' is 4×2 pixels, expected at least 2×3");
     write_exr("negative.exr", 2, {1, 2, 3, -4, 5, 6});
     EXPECT_EQ(light_error("envmap", "<string name='filename' value='negative.exr'/>"),
               "scene.xml:3:25: pixel (1, 1) of 'negative.exr' is (-4, -4, -4), expected numbers that are not negative");
+}
+
+// The first row is the pole above, and the last one, which comes again down to the third, that below; radiance is linear between.
+TEST_F(XmlLights, SmallEnvironmentMaps) {
+    const double s = std::sqrt(0.5);
+    const Vec3 above(0, s, -s), level(0, 0, -1), below(0, -s, -s);
+    const auto looks = [&](int width, const std::vector<double>& pixels, const Vec3& w) {
+        write_exr("small.exr", width, pixels);
+        return surrounds("envmap", "<string name='filename' value='small.exr'/>", w).r;
+    };
+    for (const Vec3& w : {above, level, below, Vec3(1, 0, 0)}) EXPECT_NEAR(looks(1, {3}, w), 3.0, 1e-12);
+    EXPECT_NEAR(looks(1, {2, 6}, above), 4.0, 1e-12);
+    EXPECT_NEAR(looks(1, {2, 6}, level), 6.0, 1e-12);
+    EXPECT_NEAR(looks(1, {2, 6}, below), 6.0, 1e-12);
+    // In the middle of the first of four pixels, and half way to the second.
+    EXPECT_NEAR(looks(4, {1, 2, 3, 4}, {s, 0, -s}), 1.0, 1e-12);
+    EXPECT_NEAR(looks(4, {1, 2, 3, 4}, {1, 0, 0}), 1.5, 1e-12);
+    EXPECT_NEAR(looks(2, {1, 5}, {1, 0, 0}), 1.0, 1e-12);
 }
 
 // Above +z, or where to_world turns it.

@@ -61,6 +61,26 @@ TEST_F(XmlMeshes, NormalsSayWhichSideIsTheFront) {
     expect_near(mirrored.normals[1], {-0.6, 0, 0.8});
 }
 
+// Where Mitsuba 3.10, which goes by the corners' order in the file, sees the other side as the front.
+TEST_F(XmlMeshes, FrontsThatDependOnTheVersionAreNamed) {
+    const std::string one = triangle + "f 1 2 3\n", up = triangle + "vn 0 0 1\nvn 3 0 4\nf 1//1 2//2 3//1\n",
+                      half = triangle + "vn 0 0 1\nvn 3 0 4\nf 1//1 2//2 3//1\nf 1//1 3//1 2//2\n",
+                      mirror = transform("<scale x='-1'/>"), faces = "<boolean name='face_normals' value='true'/>";
+    const auto fronts = [&](const std::string& text, const std::string& inside) {
+        write("a.obj", text);
+        const auto counts =
+            read("<shape type='obj'><string name='filename' value='a.obj'/>" + inside + "</shape>").warnings.counts();
+        return counts.empty() ? "" : counts.begin()->first.substr(0, counts.begin()->first.find(" triangles"));
+    };
+    EXPECT_EQ(fronts(one, ""), "");
+    EXPECT_EQ(fronts(one, mirror), "'a.obj': 1 of 1");
+    EXPECT_EQ(fronts(up, ""), "");
+    EXPECT_EQ(fronts(up, mirror), "");  // normals and the file agree
+    EXPECT_EQ(fronts(up, faces + mirror), "'a.obj': 1 of 1");
+    EXPECT_EQ(fronts(half, ""), "'a.obj': 1 of 2");
+    EXPECT_EQ(fronts(half, mirror), "'a.obj': 1 of 2");
+}
+
 TEST_F(XmlMeshes, FlatNormalsAreLeftOut) {
     write("flat.obj", triangle + "vn 0 0 1\nf 1//1 2//1 3//1\n");
     EXPECT_TRUE(mesh("flat.obj").normals.empty());

@@ -22,11 +22,16 @@ Vec3 triangle_normal(const TriangleMesh& mesh, const std::array<std::uint32_t, 3
     return unit(glm::cross(a, b));
 }
 
-// Orients each triangle to the side of its vertex normals.
-void orient_by_normals(TriangleMesh& mesh) {
-    for (std::array<std::uint32_t, 3>& t : mesh.triangles)
-        if (glm::dot(triangle_normal(mesh, t), mesh.normals[t[0]] + mesh.normals[t[1]] + mesh.normals[t[2]]) < 0.0)
-            std::swap(t[1], t[2]);
+// Orients each triangle to the side of its vertex normals. Returns how many of them the file has on the other side: seen from
+// there, before they were mirrored, their corners are counter-clockwise.
+std::size_t orient_by_normals(TriangleMesh& mesh, bool mirrored) {
+    std::size_t others = 0;
+    for (std::array<std::uint32_t, 3>& t : mesh.triangles) {
+        const double side = glm::dot(triangle_normal(mesh, t), mesh.normals[t[0]] + mesh.normals[t[1]] + mesh.normals[t[2]]);
+        if (side < 0.0) std::swap(t[1], t[2]);
+        if (mirrored ? side > 0.0 : side < 0.0) ++others;
+    }
+    return others;
 }
 
 // Computes vertex normals by Thürmer and Wüthrich, Computing Vertex Normals from Polygonal Facets, 1998.
@@ -90,6 +95,8 @@ TriangleMesh read_mesh_shape(Properties& p, const Context& context) {
         file = read_ply(path, attributes);
     }
     TriangleMesh mesh = std::move(file.mesh);
+    const bool mirrored = glm::determinant(glm::dmat3(to_world)) < 0.0;
+    std::size_t others = mirrored ? mesh.triangles.size() : 0;  // triangles that have another front in Mitsuba 3.10
     for (Vec3& v : mesh.vertices) {
         v = Vec3(to_world * glm::dvec4(v, 1.0));
         if (!is_finite(v)) p.fail("to_world", "moves a vertex out of the range of numbers");
@@ -107,10 +114,16 @@ TriangleMesh read_mesh_shape(Properties& p, const Context& context) {
                 {max_component(glm::abs(linear[0])), max_component(glm::abs(linear[1])), max_component(glm::abs(linear[2]))});
             const glm::dmat3 to_world_normal = glm::transpose(glm::inverse(linear / scale));
             for (Vec3& n : mesh.normals) n = unit(to_world_normal * n);
-            orient_by_normals(mesh);
+            others = orient_by_normals(mesh, mirrored);
         }
         if (is_flat(mesh)) mesh.normals = {};
     }
+    if (others > 0 && p.element().place.file.ends_with(".xml"))
+        context.warnings.add(
+            fmt::format("'{}': {} of {} triangles have the front that they have in Mitsuba up to 3.9.1: the side of "
+                        "their normals, or without normals that from which their corners are counter-clockwise "
+                        "after to_world; in 3.10 it is the other side",
+                        filename.value, others, mesh.triangles.size()));
     if (flip_normals) {
         for (std::array<std::uint32_t, 3>& t : mesh.triangles) std::swap(t[1], t[2]);
         for (Vec3& n : mesh.normals) n = -n;

@@ -6,6 +6,8 @@
 #include "core/reader/plugins/sensors.h"
 #include "core/reader/plugins/sun_sky.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 namespace neumann::reader {
@@ -37,6 +39,16 @@ ConstantEnvironment read_constant(Properties& p, const Context& context) {
     return ConstantEnvironment(radiance);
 }
 
+// As Mitsuba from 3.9.1 on, which had refused smaller pictures: the last column and the last row come again up to 2×3 pixels.
+Image padded(Image image) {
+    if (image.width >= 2 && image.height >= 3) return image;
+    Image result(std::max(image.width, 2), std::max(image.height, 3));
+    for (int y = 0; y < result.height; ++y)
+        for (int x = 0; x < result.width; ++x)
+            result.at(x, y) = image.at(std::min(x, image.width - 1), std::min(y, image.height - 1));
+    return result;
+}
+
 EnvironmentMap read_envmap(Properties& p, const Context& context) {
     const Attribute& filename = p.require("filename", {"string"}).attribute("value");
     const double scale = read_scale(p, "scale");
@@ -44,11 +56,7 @@ EnvironmentMap read_envmap(Properties& p, const Context& context) {
     p.boolean("mis_compensation");  // how Mitsuba draws directions; changes noise only
     std::optional<Image> read = p.attempt("filename", [&] { return read_light_image(filename, context); });
     finish(p);
-    Image& image = *read;
-    if (image.width < 2 || image.height < 3)
-        throw InputError(filename.place,
-                         fmt::format("'{}' is {}×{} pixels, expected at least 2×3", filename.value, image.width, image.height));
-    return EnvironmentMap(std::move(image), scale, to_world);
+    return EnvironmentMap(padded(std::move(*read)), scale, to_world);
 }
 
 PointLight read_point(Properties& p, const Context& context) {
