@@ -24,7 +24,7 @@ from site_pages import Site
 ROOT = Path(__file__).resolve().parents[3]
 
 # The pages in the order of README.md. Pages that are not named here follow.
-MANUAL = """methods measurements limits explorer error-bars health matrices machines python speed scenes collada gltf blender pbrt tungsten
+MANUAL = """lectures methods measurements limits explorer error-bars health matrices machines python speed scenes collada gltf blender pbrt tungsten
 counting building""".split()
 # The methods in the order of `render --help`.
 METHODS = """auto walk guided corrected surface light shooting bidirectional mixed photon cache metropolis classic pointwise matrix
