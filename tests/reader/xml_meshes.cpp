@@ -1,4 +1,5 @@
 // What meshes of files become as shapes: normals, sides and texture coordinates.
+#include "core/geometry/geometry.h"
 #include "tests/reader/xml_scene_files.h"
 
 #include <cmath>
@@ -79,6 +80,27 @@ TEST_F(XmlMeshes, FrontsThatDependOnTheVersionAreNamed) {
     EXPECT_EQ(fronts(up, faces + mirror), "'a.obj': 1 of 1");
     EXPECT_EQ(fronts(half, ""), "'a.obj': 1 of 2");
     EXPECT_EQ(fronts(half, mirror), "'a.obj': 1 of 2");
+}
+
+// As in Mitsuba 3.10; up to 3.9.1 a mirrored sphere is turned inside out.
+TEST_F(XmlMeshes, OtherShapesKeepTheirOutsideInAMirror) {
+    const std::string flip = "<boolean name='flip_normals' value='true'/>";
+    const auto normal = [&](const std::string& type, const std::string& inside, const Vec3& from, const Vec3& along) {
+        SurfacePoint hit;
+        const Geometry geometry(read("<shape type='" + type + "'>" + inside + "</shape>").shapes);
+        EXPECT_TRUE(geometry.first_hit(from, along, 10.0, hit)) << type;
+        return hit.normal;
+    };
+    for (const std::string& mirror :
+         {transform("<scale x='-1'/>"), transform("<scale y='-1'/>"), transform("<scale value='-1'/>")}) {
+        const double z = mirror.find("value='-1'") == std::string::npos ? 0.5 : -0.5;
+        for (const std::string type : {"sphere", "cube", "cylinder"}) {
+            EXPECT_GT(normal(type, mirror, {3, 0.1, z}, {-1, 0, 0}).x, 0.5) << type << mirror;
+            EXPECT_LT(normal(type, mirror + flip, {3, 0.1, z}, {-1, 0, 0}).x, -0.5) << type << mirror;
+        }
+        for (const std::string type : {"disk", "rectangle"})
+            EXPECT_NEAR(normal(type, mirror, {0.1, 0.2, 3}, {0, 0, -1}).z, z < 0.0 ? -1.0 : 1.0, 1e-14) << type << mirror;
+    }
 }
 
 TEST_F(XmlMeshes, FlatNormalsAreLeftOut) {
