@@ -15,6 +15,7 @@
 #include "apps/commands/solve_command.h"
 #include "apps/commands/spectrum_command.h"
 #include "apps/commands/stress_command.h"
+#include "apps/commands/strip_command.h"
 #include "apps/commands/study_command.h"
 #include "apps/commands/unbounce_command.h"
 
@@ -31,6 +32,7 @@ Request request_of(const Options<Request>& options, const Given& given, const st
     Request request;
     if constexpr (requires { request.command_line; }) request.command_line = line;
     if constexpr (requires { request.patches.command_line; }) request.patches.command_line = line;
+    if constexpr (requires { request.render.command_line; }) request.render.command_line = line;
     take(options, given, request, &OptionWords::spelled);
     return request;
 }
@@ -67,6 +69,7 @@ std::vector<Command> add_commands(CLI::App& app, const std::string& line) {
             command(app, line, study_options(), study_command),
             command(app, line, replay_options(), replay_command),
             command(app, line, page_options(), page_command),
+            command(app, line, strip_options(), strip_command),
             command(app, line, stress_options(), stress_command),
             command(app, line, plan_options(), plan_command),
             command(app, line, convert_options(), convert_command),

@@ -88,6 +88,7 @@ std::optional<std::string_view> writer_of(std::string_view name) {
                     "strip-doubling.svg", "strip-mixture.png"}},
         {"study", {"study.csv", "study.json", unfinished_run_file}},
         {"compare", {"compare.json"}},
+        {"strip", {"strip.png", "strip.svg", "strip.json"}},
         {"blame", {"blame.json"}},
         {"unbounce", {"unbounce.json", "unbounced.png", "backward_rest.exr"}},
         {"export",

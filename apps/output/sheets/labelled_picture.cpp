@@ -1,12 +1,76 @@
 #include "apps/output/sheets/labelled_picture.h"
 
+#include "apps/output/sheets/mark.h"
 #include "core/image/image_io.h"
 #include "core/image/resize.h"
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 namespace neumann {
+
+namespace {
+
+constexpr int smallest_font = 6;
+
+// Letters, of one to four bytes.
+int letters_in(const std::string& text) {
+    return static_cast<int>(std::ranges::count_if(text, [](char c) { return (static_cast<unsigned char>(c) & 0xc0u) != 0x80u; }));
+}
+
+// Letters of a line of this width: most take at most three fifths of the font's size.
+int letters_a_line(int width, int font_size) { return std::max(1, 5 * width / (3 * font_size)); }
+
+std::vector<std::string> wrapped(const std::string& text, int letters) {
+    std::vector<std::string> lines(1);
+    std::istringstream words(text);
+    for (std::string word; words >> word;) {
+        if (!lines.back().empty() && letters_in(lines.back() + " " + word) > letters) lines.emplace_back();
+        lines.back() += (lines.back().empty() ? "" : " ") + word;
+    }
+    return lines;
+}
+
+DisplayImage shown(const LabelledPicture& picture, int width, int height, double exposure, const SheetStyle& style) {
+    if (!picture.picture) {
+        DisplayImage out(width, height, style.theme.background);
+        const auto [lines, size] = filling(picture.instead, width, height, explanation_size);
+        for (std::size_t i = 0; i < lines.size(); ++i) {
+            const int top = static_cast<int>(i) * label_height(size);
+            if (top + label_height(size) <= height)
+                out.paste(caption(lines[i], width, label_height(size), size, style, false), 0, top);
+        }
+        return out;
+    }
+    const Image& all = *picture.picture;
+    const DisplayImage pixels =
+        to_display(resized(all, std::min(width, all.width), std::min(height, all.height)), exposure * picture.factor);
+    DisplayImage out = enlarged(pixels, width / pixels.width);
+    if (picture.mark) draw_mark(out, place_of_mark(picture, width, height));
+    return out;
+}
+
+}  // namespace
+
+std::vector<std::string> lines_of(const std::string& text) {
+    std::vector<std::string> lines;
+    std::istringstream all(text);
+    for (std::string line; std::getline(all, line);) lines.push_back(line);
+    return lines;
+}
+
+FilledLines filling(const std::string& text, int width, int height, int font_size) {
+    const auto set_in = [&](int size) { return FilledLines{wrapped(text, letters_a_line(width, size)), size}; };
+    FilledLines filled = set_in(font_size);
+    while (filled.font_size > smallest_font && static_cast<int>(filled.lines.size()) * label_height(filled.font_size) > height)
+        filled = set_in(filled.font_size - 1);
+    return filled;
+}
+
+int fitting_size(const std::string& text, int width, int font_size) {
+    return std::clamp(5 * width / (3 * std::max(1, letters_in(text))), smallest_font, font_size);
+}
 
 double brightening(const Image& term, const Image& emission, double exposure) {
     // Rounding down to a power of two keeps the term from being too bright; 1e-3 allows for the rounding of pixel values.
@@ -21,7 +85,7 @@ DisplayImage caption(const std::string& text, int width, int height, int font_si
     if (!font) return strip;
     int taken = text_width(text, font_size, *font);
     if (taken > width) {
-        font_size = std::max(6, font_size * width / taken);
+        font_size = std::max(smallest_font, font_size * width / taken);
         taken = text_width(text, font_size, *font);
     }
     const int baseline = (height + 7 * font_size / 10) / 2;
@@ -31,12 +95,12 @@ DisplayImage caption(const std::string& text, int width, int height, int font_si
 
 DisplayImage with_label(const LabelledPicture& picture, int width, int height, double exposure, int label_size,
                         const SheetStyle& style) {
-    DisplayImage out(width, height + label_height(label_size), style.theme.background);
-    const Image& all = *picture.picture;
-    const DisplayImage pixels =
-        to_display(resized(all, std::min(width, all.width), std::min(height, all.height)), exposure * picture.factor);
-    out.paste(enlarged(pixels, width / pixels.width), 0, 0);
-    out.paste(caption(picture.label, width, label_height(label_size), label_size, style, true), 0, height);
+    const std::vector<std::string> lines = lines_of(picture.label);
+    const int line = label_height(label_size);
+    DisplayImage out(width, height + static_cast<int>(lines.size()) * line, style.theme.background);
+    out.paste(shown(picture, width, height, exposure, style), 0, 0);
+    for (std::size_t i = 0; i < lines.size(); ++i)
+        out.paste(caption(lines[i], width, line, label_size, style, true), 0, height + static_cast<int>(i) * line);
     return out;
 }
 

@@ -1,5 +1,6 @@
 #include "apps/output/sheets/strip_svg.h"
 
+#include "apps/output/sheets/mark.h"
 #include "core/image/image_io.h"
 #include "core/image/resize.h"
 
@@ -30,28 +31,77 @@ std::string escaped(const std::string& text) {
     return out;
 }
 
+// A line of text whose upper side is at `top`, `at` its middle or, with the anchor start, its left side.
+std::string line_of_text(const std::string& text, int at, int top, int width, int font_size, const char* anchor = "") {
+    const int size = fitting_size(text, width, font_size);
+    std::string attributes = *anchor ? fmt::format(" text-anchor=\"{}\"", anchor) : "";
+    if (size != strip_label_size) attributes += fmt::format(" font-size=\"{}\"", size);
+    return fmt::format("<text x=\"{}\" y=\"{}\"{}>{}</text>\n", at, top + (label_height(font_size) + 7 * size / 10) / 2, attributes,
+                       escaped(text));
+}
+
+std::string mark_svg(const PlaceOfMark& place) {
+    std::string arms;
+    for (const auto& [x0, y0, x1, y1] : arms_of_mark)
+        arms += fmt::format("M{:.6g} {:.6g}L{:.6g} {:.6g}", place.x + x0, place.y + y0, place.x + x1, place.y + y1);
+    std::string svg;
+    for (const auto& [colour, width] : {std::pair("#000000", mark_width + 2 * mark_edge), std::pair("#ffffff", mark_width)})
+        svg += fmt::format("<path d=\"{}\" stroke=\"{}\" stroke-width=\"{}\"/>\n", arms, colour, width);
+    return svg;
+}
+
+std::string picture_svg(const LabelledPicture& picture, const StripLayout& at, int left, int top, double exposure) {
+    const Image shown =
+        resized(*picture.picture, std::min(at.width, picture.picture->width), std::min(at.height, picture.picture->height));
+    std::string svg = fmt::format(
+        "<image x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" style=\"image-rendering: pixelated\" "
+        "href=\"data:image/png;base64,{}\"/>\n",
+        left, top, at.width, at.height, base64(encode_png(to_display(shown, exposure * picture.factor))));
+    if (!picture.mark) return svg;
+    const auto [x, y] = place_of_mark(picture, at.width, at.height);
+    return svg + mark_svg({left + x, top + y});
+}
+
+std::string explanation_svg(const std::string& text, const StripLayout& at, int left, int top) {
+    const auto [lines, size] = filling(text, at.width, at.height, explanation_size);
+    std::string svg;
+    for (const std::string& line : lines) {
+        svg += line_of_text(line, left, top, at.width, size, "start");
+        top += label_height(size);
+    }
+    return svg;
+}
+
 }  // namespace
 
-std::string strip_svg(const Strip& strip, double exposure, SheetTheme theme, const std::string& comment) {
+std::string strip_svg(const Strip& strip, double exposure, SheetTheme theme, const std::string& comment, const std::string& below) {
     const StripLayout at = layout_strip(strip);
     const auto grey = [](std::uint8_t level) { return fmt::format("#{0:02x}{0:02x}{0:02x}", level); };
     std::string svg = fmt::format(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\" font-family=\"DejaVu Sans, "
         "sans-serif\" font-size=\"{2}\" text-anchor=\"middle\" fill=\"{3}\">\n",
-        at.whole_width(), at.whole_height(), strip_label_size, grey(theme.text));
+        at.whole_width(), at.whole_height() + height_below(below), strip_label_size, grey(theme.text));
     if (!comment.empty()) svg += fmt::format("<desc>{}</desc>\n", escaped(comment));
     svg += fmt::format("<rect width=\"100%\" height=\"100%\" fill=\"{}\"/>\n", grey(theme.background));
-    for (int r = 0; r < at.rows; ++r)
-        for (int c = 0; c < at.columns; ++c) {
-            const auto& [label, picture, factor] = strip[static_cast<std::size_t>(r)][static_cast<std::size_t>(c)];
-            const Image shown = resized(*picture, std::min(at.width, picture->width), std::min(at.height, picture->height));
-            svg += fmt::format(
-                "<image x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" style=\"image-rendering: pixelated\" "
-                "href=\"data:image/png;base64,{}\"/>\n<text x=\"{}\" y=\"{}\">{}</text>\n",
-                at.left(c), at.top(r), at.width, at.height, base64(encode_png(to_display(shown, exposure * factor))),
-                at.left(c) + at.width / 2, at.top(r) + at.height + (label_height(strip_label_size) + 7 * strip_label_size / 10) / 2,
-                escaped(label));
+    for (int r = 0; r < at.rows; ++r) {
+        int c = 0;
+        for (const LabelledPicture& picture : strip[static_cast<std::size_t>(r)]) {
+            const int left = at.left(c++);
+            int top = at.top(r);
+            svg +=
+                picture.picture ? picture_svg(picture, at, left, top, exposure) : explanation_svg(picture.instead, at, left, top);
+            top += at.height;
+            for (const std::string& line : lines_of(picture.label)) {
+                svg += line_of_text(line, left + at.width / 2, top, at.width, strip_label_size);
+                top += label_height(strip_label_size);
+            }
         }
+    }
+    int top = at.top(at.rows) + sheet_gap;
+    for (const std::string& line : lines_of(below)) {
+        svg += line_of_text(line, at.border, top, at.whole_width() - 2 * at.border, explanation_size, "start");
+        top += label_height(explanation_size);
+    }
     return svg + "</svg>\n";
 }
 

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 namespace neumann {
 namespace {
@@ -14,9 +15,6 @@ namespace {
 constexpr std::size_t last_in_strip = 6;
 constexpr int slide_width = 1920;
 constexpr double gif_seconds = 0.06;
-
-// "", "K ", "K² ", …
-std::string power_of(const std::string& K, std::size_t i) { return i == 0 ? "" : i == 1 ? K + " " : K + superscript(i) + " "; }
 
 // "Le", "K Le", "K² Le", … and "16 K² Le".
 LabelledPicture term(const SeriesPictures& series, std::size_t i, double factor = 1.0) {
@@ -30,22 +28,47 @@ LabelledPicture sum_to(const SeriesPictures& series, std::size_t i) {
 
 LabelledPicture limit_of(const SeriesPictures& series) { return {"all bounces" + series.kind, series.limit}; }
 
-DisplayImage drawn(const Strip& strip, int border, double largest_scale, double exposure, const SheetStyle& style) {
+DisplayImage drawn(const Strip& strip, int border, double largest_scale, double exposure, const SheetStyle& style,
+                   const std::string& below = "") {
     const StripLayout at = layout_strip(strip, border, largest_scale);
-    DisplayImage out(at.whole_width(), at.whole_height(), style.theme.background);
-    for (int r = 0; r < at.rows; ++r)
-        for (int c = 0; c < at.columns; ++c) {
-            const LabelledPicture& picture = strip[static_cast<std::size_t>(r)][static_cast<std::size_t>(c)];
-            out.paste(with_label(picture, at.width, at.height, exposure, strip_label_size, style), at.left(c), at.top(r));
-        }
+    DisplayImage out(at.whole_width(), at.whole_height() + height_below(below), style.theme.background);
+    for (int r = 0; r < at.rows; ++r) {
+        int c = 0;
+        for (const LabelledPicture& picture : strip[static_cast<std::size_t>(r)])
+            out.paste(with_label(picture, at.width, at.height, exposure, strip_label_size, style), at.left(c++), at.top(r));
+    }
+    int top = at.top(at.rows) + sheet_gap;
+    for (const std::string& line : lines_of(below)) {
+        constexpr int height = label_height(explanation_size);
+        out.paste(caption(line, out.width - 2 * border, height, explanation_size, style, false), border, top);
+        top += height;
+    }
     return out;
+}
+
+const Image& first_picture(const Strip& strip) {
+    for (const Pictures& row : strip)
+        for (const LabelledPicture& picture : row)
+            if (picture.picture) return *picture.picture;
+    throw std::invalid_argument("a strip has no pictures");
 }
 
 }  // namespace
 
+std::string power_of(const std::string& K, std::size_t i) { return i == 0 ? "" : i == 1 ? K + " " : K + superscript(i) + " "; }
+
+int height_below(const std::string& below) {
+    return below.empty() ? 0 : sheet_gap + static_cast<int>(lines_of(below).size()) * label_height(explanation_size);
+}
+
 StripLayout layout_strip(const Strip& strip, int border, double largest_scale) {
-    const Image& first = *strip.front().front().picture;
-    StripLayout layout{border, static_cast<int>(strip.size()), static_cast<int>(strip.front().size()), 0, 0};
+    const Image& first = first_picture(strip);
+    StripLayout layout{border, static_cast<int>(strip.size()), 0, 0, 0, 1};
+    for (const Pictures& row : strip) {
+        layout.columns = std::max(layout.columns, static_cast<int>(row.size()));
+        for (const LabelledPicture& picture : row)
+            layout.lines = std::max(layout.lines, static_cast<int>(lines_of(picture.label).size()));
+    }
     const double fitting =
         (slide_width - 2 * border - (layout.columns - 1) * sheet_gap) / (static_cast<double>(layout.columns) * first.width);
     const double scale =
@@ -106,8 +129,9 @@ Strip strip_of_mixture(const Mixture& mixture, std::vector<Image>& maps) {
     return strip;
 }
 
-std::string strip_png(const Strip& strip, double exposure, const SheetStyle& style, const std::string& comment) {
-    return encode_png(drawn(strip, sheet_margin, largest_picture, exposure, style), comment);
+std::string strip_png(const Strip& strip, double exposure, const SheetStyle& style, const std::string& comment,
+                      const std::string& below) {
+    return encode_png(drawn(strip, sheet_margin, largest_picture, exposure, style, below), comment);
 }
 
 std::string strip_gif(const Strip& strip, double exposure, const SheetStyle& style) {

@@ -13,6 +13,9 @@ namespace neumann {
 
 using Pictures = std::vector<LabelledPicture>;
 
+// "", "K ", "K² ", …
+std::string power_of(const std::string& K, std::size_t i);
+
 // All pictures of a series, in scene-linear radiance, of one size; they must outlive this object.
 struct SeriesPictures {
     std::span<const Image> terms, sums;  // for bounces 0 to N
@@ -25,7 +28,7 @@ struct SeriesPictures {
     Pictures all() const;
 };
 
-// Rows with the same number of pictures, one below the other.
+// Rows of pictures, one below the other; one that is shorter than others ends before them.
 using Strip = std::vector<Pictures>;
 
 // Bounces 0 to 6, as far as they exist. The row below shows each multiplied by its brightening(): "16 K³ Le".
@@ -41,20 +44,24 @@ Strip strip_of_mixture(const Mixture& mixture, std::vector<Image>& maps);
 
 constexpr int largest_picture = 480, strip_label_size = 20;
 
-// The places of pictures of `width` × `height` in a strip, each with its label below.
+// The places of pictures of `width` × `height` in a strip, each with its label of so many lines below.
 struct StripLayout {
-    int border, rows, columns, width, height;
+    int border, rows, columns, width, height, lines;
 
     int left(int column) const { return border + column * (width + sheet_gap); }
-    int top(int row) const { return border + row * (height + label_height(strip_label_size)); }
+    int top(int row) const { return border + row * (height + lines * label_height(strip_label_size)); }
     int whole_width() const { return left(columns) - sheet_gap + border; }
     int whole_height() const { return top(rows) + border; }
 };
 StripLayout layout_strip(const Strip& strip, int border = sheet_margin, double largest_scale = largest_picture);
 
-// A PNG file, at most 1920 pixels wide. Small pictures are enlarged by whole factors. The strip must not be empty.
-// The file carries the comment, unless that is empty.
-std::string strip_png(const Strip& strip, double exposure, const SheetStyle& style, const std::string& comment = "");
+// The height of the lines below a strip.
+int height_below(const std::string& below);
+
+// A PNG file, at most 1920 pixels wide. Small pictures are enlarged by whole factors. At least one picture must be there.
+// The file carries the comment, and below the pictures are the lines of `below`, unless they are empty.
+std::string strip_png(const Strip& strip, double exposure, const SheetStyle& style, const std::string& comment = "",
+                      const std::string& below = "");
 // A GIF file: each frame is a column of the strip, with its pictures side by side.
 std::string strip_gif(const Strip& strip, double exposure, const SheetStyle& style);
 
