@@ -37,14 +37,19 @@ constexpr std::size_t most_in_row = 7;
 
 std::string sum_name(int bounce) { return bounce == 0 ? "bounce 0" : fmt::format("bounces 0 to {}", bounce); }
 
-// The tile of a picture of `bounces`, of which some may be of infinite variance, so that errors are unknown.
+// The relative standard error of a picture; infinite if it is unknown.
+double error_of(const Estimate& picture, bool infinite_variance) {
+    return infinite_variance || picture.standard_error.pixels.empty() ? std::numeric_limits<double>::infinity()
+                                                                      : relative_standard_error(picture);
+}
+
 StripTile tile_of(const std::string& label, const PixelEstimate& picture, const BounceSeries& series, int bounces,
                   bool infinite_variance, const StripRequest& request) {
     const PixelEstimate shown = as_in_file(picture);
     StripTile tile;
     tile.label = label;
     tile.picture = shown.mean;
-    tile.error = infinite_variance ? std::numeric_limits<double>::infinity() : relative_standard_error(picture);
+    tile.error = error_of(picture, infinite_variance);
     tile.is_biased = is_biased(series.method);
     tile.method = name_of(series.method);
     tile.bounces = bounces;
@@ -53,14 +58,16 @@ StripTile tile_of(const std::string& label, const PixelEstimate& picture, const 
     if (!request.mark) return tile;
     const auto [x, y] = *request.mark;
     tile.marked = {shown.mean.at(x, y),
-                   infinite_variance ? Rgb(std::numeric_limits<double>::infinity()) : shown.pixel_errors().at(x, y)};
+                   std::isfinite(tile.error) ? shown.pixel_errors().at(x, y) : Rgb(std::numeric_limits<double>::infinity())};
     return tile;
 }
 
 StripTile tile_of_sum(const std::string& label, const BounceSeries& series, int bounce, const StripRequest& request) {
     const auto i = static_cast<std::size_t>(bounce);
     const bool infinite = std::ranges::any_of(std::span(series.report.bounces).first(i + 1), &BounceReport::infinite_variance);
-    return tile_of(label, series.sum(i), series, bounce, infinite, request);
+    StripTile tile = tile_of(label, series.sum(i), series, bounce, infinite, request);
+    if (judges_direct_light(request) && i > 0) tile.error = error_of(series.term(1), series.report.bounces[1].infinite_variance);
+    return tile;
 }
 
 // A bounce and each way to make it.
@@ -146,7 +153,8 @@ std::string words_below(const VariedStrip& strip, const StripRequest& request, c
         parts.push_back(fmt::format("{} sample{} a pixel", *samples, *samples == 1 ? "" : "s"));
     if (const std::string about = about_strip(request); !about.empty()) parts.push_back(about);
     std::string words = fmt::format("{}\none exposure, ×{:.3g}, sRGB", fmt::join(parts, "; "), strip.exposure);
-    if (shows_errors(request)) words += "; error: relative standard error of the picture";
+    if (shows_errors(request))
+        words += fmt::format("; error: relative standard error of {}", judges_direct_light(request) ? "bounce 1" : "the picture");
     if (strip.mark)
         words += fmt::format("; p: radiance of pixel {},{} (red, green, blue; W/m²/sr)", (*strip.mark)[0], (*strip.mark)[1]);
     return words;
@@ -220,7 +228,8 @@ int strip_command(const StripRequest& given) {
             tiles = tiles_of(of, series, request);
             sum = series.sum(static_cast<std::size_t>(series.bounces())).mean;
             emission = series.term(0).mean;
-            for (const auto& [text, count] : rendering->warnings().counts()) warnings.add(text, count);
+            const Warnings of_render = rendering->warnings();
+            for (const auto& [text, count] : of_render.counts()) warnings.add(text, count);
         } catch (const InputError& error) {
             StripTile& refused = tiles.emplace_back();
             refused.label = of.label;

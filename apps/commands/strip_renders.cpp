@@ -197,6 +197,8 @@ bool shows_errors(const StripRequest& request) {
     return request.vary != "depth" && request.vary != "ways" && request.vary != "ladder";
 }
 
+bool judges_direct_light(const StripRequest& request) { return request.vary == "shadow-rays" || request.vary == "hemisphere"; }
+
 std::string about_strip(const StripRequest& request) {
     static const std::map<std::string, std::string> all{
         {"shadow-rays", "each sample with so many shadow rays from its first surface"},

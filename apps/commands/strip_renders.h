@@ -22,6 +22,8 @@ std::vector<StripRender> strip_renders(const StripRequest& request);
 
 // Whether the labels of a strip have the errors of the pictures.
 bool shows_errors(const StripRequest& request);
+// Whether they are those of bounce 1: samples of the light leave bounce 0 as it is, whose edges have most of the error of the sum.
+bool judges_direct_light(const StripRequest& request);
 // What is beside the value the same in all tiles, in words.
 std::string about_strip(const StripRequest& request);
 

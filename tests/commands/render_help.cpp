@@ -105,7 +105,7 @@ TEST_F(RenderHelp, UnknownCommands) {
     EXPECT_EQ(done.exit_code, 2);
     EXPECT_EQ(done.err,
               "no command is called 'rendr'; there are render, compare, spectrum, solve, export, conform, study, replay, page, "
-              "stress, plan, convert, merge, blame, unbounce, help; did you mean 'render'?\n");
+              "strip, stress, plan, convert, merge, blame, unbounce, help; did you mean 'render'?\n");
     EXPECT_EQ(done.out, "");
     done = run({"rendr", "scene.xml"});
     EXPECT_EQ(done.exit_code, 2);
