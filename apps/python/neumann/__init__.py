@@ -22,6 +22,7 @@ from ._bounces import Bounce, Bounces, BounceSeries, Way, read
 from ._chain import Chain
 from ._compare import compare, flip
 from ._dictionary import look_at
+from ._functions import FieldOperator
 from ._matrices import SOLVERS, Matrices, Solutions, cube, series, solve, spectrum
 from ._method import Method
 from ._method_options import (
@@ -65,6 +66,7 @@ __all__ = [
     "Chain",
     "Classic",
     "Corrected",
+    "FieldOperator",
     "Gather",
     "Guided",
     "HealthWarning",

@@ -12,12 +12,12 @@ from ._chain import Chain
 from ._dictionary import edits_of, parse
 from ._display import Live, as_facts, as_table
 from ._estimator import Estimator, from_rays, name_of
+from ._functions import OnFunctions
 from ._method import Method
 from ._method_options import MethodOptions
 from ._on_patches import OnPatches
 from ._photons import Photons
 from ._progress import run
-from ._rays import RayQueries
 from ._records import Records
 from ._report import HealthWarning, Report, warn
 from ._sources import Memory
@@ -41,7 +41,7 @@ class Plan(List[Report]):
         )
 
 
-class Scene(RayQueries, OnPatches):
+class Scene(OnFunctions, OnPatches):
     """A scene, as its files were when load() read them.
 
     Methods do the same as the commands of the same names; their keywords are the options of the command, which checks them. While
