@@ -13,6 +13,11 @@ import re
 from pathlib import Path
 
 
+def lessons(folder):
+    """The lessons of a folder in their order: 10_… comes after 9_…"""
+    return sorted(folder.glob("[1-9]*_*.py"), key=lambda path: int(path.stem.partition("_")[0]))
+
+
 def cells(source):
     """[(kind, text)] of a file in percent format."""
     found = []
@@ -51,7 +56,7 @@ def main():
     parser.add_argument("-o", type=Path, default=here, metavar="DIR", help="where they go; beside the lessons without it")
     arguments = parser.parse_args()
     arguments.o.mkdir(parents=True, exist_ok=True)
-    for lesson in arguments.lessons or sorted(here.glob("[1-9]_*.py")):
+    for lesson in arguments.lessons or lessons(here):
         path = arguments.o / f"{lesson.stem}.ipynb"
         text = json.dumps(notebook(lesson.read_text(encoding="utf-8")), ensure_ascii=False, indent=1) + "\n"
         path.write_text(text, encoding="utf-8")

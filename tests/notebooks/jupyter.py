@@ -14,14 +14,14 @@ with tempfile.TemporaryDirectory() as folder:
     made = subprocess.run(
         [sys.executable, source / "to_ipynb.py", "-o", folder], check=True, capture_output=True, text=True
     ).stdout.split()
-    lessons = sorted(source.glob("[1-9]_*.py"))
+    lessons = sorted(source.glob("[1-9]*_*.py"), key=lambda path: int(path.stem.partition("_")[0]))
     assert [Path(p).stem for p in made] == [p.stem for p in lessons]
     notebooks = {}
     for path, lesson in zip(made, lessons):
         notebook = notebooks[lesson.stem] = nbformat.read(path, as_version=4)
         nbformat.validate(notebook)
         kinds = [cell.cell_type for cell in notebook.cells]
-        assert kinds[0] == "markdown" and notebook.cells[0].source.startswith(f"# {lesson.stem[0]}. "), "begins with its title"
+        assert kinds[0] == "markdown" and notebook.cells[0].source.startswith(f"# {lesson.stem.partition('_')[0]}. "), "begins with its title"
         assert "**What this teaches.**" in notebook.cells[0].source
         assert kinds[-1] == "markdown" and "## Exercises" in notebook.cells[-1].source, "ends with exercises"
         lines = [line for line in lesson.read_text(encoding="utf-8").splitlines() if not line.startswith("# %%")]

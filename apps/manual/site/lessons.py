@@ -13,7 +13,7 @@ from pathlib import Path
 
 
 def files(root):
-    return sorted((root / "notebooks").glob("[1-9]_*.py"))
+    return converter(root).lessons(root / "notebooks")
 
 
 def title(path):
