@@ -88,7 +88,7 @@ class Functions(Case):
     def test_bounces_are_those_of_render(self):
         # 64 groups of 16 samples of 256 pixels, under a lamp so large that rays meet it. Nine comparisons of channels in three
         # bounces, with Student's t of 63 degrees of freedom: |z| ≤ 4.5 for a normal z, 4.9 here, fails once in 16 000 seeds.
-        # SE is at most 2%: wrong weights are what the furnace finds, wrong directions change a bounce by more than that.
+        # SE is at most 2%; small errors of weights and directions are what the furnace and the cosine above find.
         scene, groups = panels().edit({"lamp.to_world": neumann.look_at([0, 0, 2.2], [0, 0, 0], up=[0, 1, 0])}), 64
         K = scene.R(2, seed=SEED) @ scene.T
         bounces, means = [K(scene.Le), K(K(scene.Le)), (K @ K @ K)(scene.Le)], []
