@@ -90,7 +90,8 @@ class OnFunctions(RayQueries):
                 rows = np.flatnonzero(x.hit & leaves)
                 unknown = np.isnan(x.reflectance[rows]).any(axis=1)
                 if unknown.any():
-                    raise _neumann.InputError(f"x: row {rows[unknown][0]} is on a surface that is not diffuse, expected a reflectance")
+                    row = rows[unknown][0]
+                    raise _neumann.InputError(f"x: row {row} is on a surface that is not diffuse, expected a reflectance")
                 at = x[np.repeat(rows, samples)]
                 sphere = random.normal(size=(len(at), 3))
                 wi = at.normal + sphere / np.linalg.norm(sphere, axis=1, keepdims=True)
