@@ -25,6 +25,7 @@
 #include <filesystem>
 #include <limits>
 #include <span>
+#include <stdexcept>
 
 namespace neumann {
 
@@ -230,7 +231,9 @@ int strip_command(const StripRequest& given) {
             emission = series.term(0).mean;
             const Warnings of_render = rendering->warnings();
             for (const auto& [text, count] : of_render.counts()) warnings.add(text, count);
-        } catch (const InputError& error) {
+        } catch (const Stopped&) {
+            throw;
+        } catch (const std::runtime_error& error) {  // the scene or the time is not for this render
             StripTile& refused = tiles.emplace_back();
             refused.label = of.label;
             refused.why = error.what();

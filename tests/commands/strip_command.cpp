@@ -236,9 +236,10 @@ TEST_F(StripCommand, SaysWhatIsWrong) {
         {{"--vary", "depth", "-n", "4"}, "-n: is what --vary depth chooses\n"},
         {{"--vary", "ways", "--method", "walk"}, "--method: is what --vary ways chooses\n"},
         {{"--vary", "hemisphere", "--direct", "light"}, "--direct: is what --vary hemisphere chooses\n"},
-        {{"--vary", "depth", "--mark", "24,0", "--spp", "4"}, "--mark 24,0: is not in the picture, which has 24×10 pixels\n"},
-        {{"--vary", "methods", "--values", "walk,nobody"}, "--values: 'nobody' is none\n"}};
+        {{"--vary", "depth", "--mark", "24,0", "--spp", "4"}, "--mark 24,0: the picture has x from 0 to 23 and y from 0 to 9\n"}};
     for (const auto& [options, message] : wrong) EXPECT_EQ(strip_refused(options), message);
+    EXPECT_TRUE(
+        strip_refused({"--vary", "methods", "--values", "walk,nobody"}).starts_with("--values: nobody: method: nobody not in {"));
 }
 
 TEST_F(StripCommand, InterruptedItKeepsNothing) {

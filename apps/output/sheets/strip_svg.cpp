@@ -76,11 +76,12 @@ std::string explanation_svg(const std::string& text, const StripLayout& at, int 
 
 std::string strip_svg(const Strip& strip, double exposure, SheetTheme theme, const std::string& comment, const std::string& below) {
     const StripLayout at = layout_strip(strip);
+    const std::vector<std::string> words = lines_below(below, at);
     const auto grey = [](std::uint8_t level) { return fmt::format("#{0:02x}{0:02x}{0:02x}", level); };
     std::string svg = fmt::format(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\" font-family=\"DejaVu Sans, "
         "sans-serif\" font-size=\"{2}\" text-anchor=\"middle\" fill=\"{3}\">\n",
-        at.whole_width(), at.whole_height() + height_below(below), strip_label_size, grey(theme.text));
+        at.whole_width(), at.whole_height() + height_below(words.size()), strip_label_size, grey(theme.text));
     if (!comment.empty()) svg += fmt::format("<desc>{}</desc>\n", escaped(comment));
     svg += fmt::format("<rect width=\"100%\" height=\"100%\" fill=\"{}\"/>\n", grey(theme.background));
     for (int r = 0; r < at.rows; ++r) {
@@ -98,7 +99,7 @@ std::string strip_svg(const Strip& strip, double exposure, SheetTheme theme, con
         }
     }
     int top = at.top(at.rows) + sheet_gap;
-    for (const std::string& line : lines_of(below)) {
+    for (const std::string& line : words) {
         svg += line_of_text(line, at.border, top, at.whole_width() - 2 * at.border, explanation_size, "start");
         top += label_height(explanation_size);
     }

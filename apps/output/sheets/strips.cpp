@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <limits>
 #include <stdexcept>
 
 namespace neumann {
@@ -31,14 +33,15 @@ LabelledPicture limit_of(const SeriesPictures& series) { return {"all bounces" +
 DisplayImage drawn(const Strip& strip, int border, double largest_scale, double exposure, const SheetStyle& style,
                    const std::string& below = "") {
     const StripLayout at = layout_strip(strip, border, largest_scale);
-    DisplayImage out(at.whole_width(), at.whole_height() + height_below(below), style.theme.background);
+    const std::vector<std::string> words = lines_below(below, at);
+    DisplayImage out(at.whole_width(), at.whole_height() + height_below(words.size()), style.theme.background);
     for (int r = 0; r < at.rows; ++r) {
         int c = 0;
         for (const LabelledPicture& picture : strip[static_cast<std::size_t>(r)])
             out.paste(with_label(picture, at.width, at.height, exposure, strip_label_size, style), at.left(c++), at.top(r));
     }
     int top = at.top(at.rows) + sheet_gap;
-    for (const std::string& line : lines_of(below)) {
+    for (const std::string& line : words) {
         constexpr int height = label_height(explanation_size);
         out.paste(caption(line, out.width - 2 * border, height, explanation_size, style, false), border, top);
         top += height;
@@ -57,8 +60,12 @@ const Image& first_picture(const Strip& strip) {
 
 std::string power_of(const std::string& K, std::size_t i) { return i == 0 ? "" : i == 1 ? K + " " : K + superscript(i) + " "; }
 
-int height_below(const std::string& below) {
-    return below.empty() ? 0 : sheet_gap + static_cast<int>(lines_of(below).size()) * label_height(explanation_size);
+std::vector<std::string> lines_below(const std::string& below, const StripLayout& at) {
+    std::vector<std::string> all;
+    for (const std::string& line : lines_of(below))
+        std::ranges::copy(filling(line, at.whole_width() - 2 * at.border, std::numeric_limits<int>::max(), explanation_size).lines,
+                          std::back_inserter(all));
+    return all;
 }
 
 StripLayout layout_strip(const Strip& strip, int border, double largest_scale) {

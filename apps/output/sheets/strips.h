@@ -53,10 +53,12 @@ struct StripLayout {
     int whole_width() const { return left(columns) - sheet_gap + border; }
     int whole_height() const { return top(rows) + border; }
 };
+// The lines of a text below a strip, as long as it is wide, and their height.
+std::vector<std::string> lines_below(const std::string& below, const StripLayout& at);
+constexpr int height_below(std::size_t lines) {
+    return lines == 0 ? 0 : sheet_gap + static_cast<int>(lines) * label_height(explanation_size);
+}
 StripLayout layout_strip(const Strip& strip, int border = sheet_margin, double largest_scale = largest_picture);
-
-// The height of the lines below a strip.
-int height_below(const std::string& below);
 
 // A PNG file, at most 1920 pixels wide. Small pictures are enlarged by whole factors. At least one picture must be there.
 // The file carries the comment, and below the pictures are the lines of `below`, unless they are empty.
