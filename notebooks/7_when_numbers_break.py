@@ -2,8 +2,9 @@
 # # 7. When numbers break
 #
 # **What this teaches.** A renderer computes with numbers of 24 or 53 bits, and stops some time. You will see where that shows:
-# sums that stand still, squares that vanish, rays that hit the surface they leave, paths that forget where they were, rooms whose
-# light dies at two speeds at once; and how to read a health report, which tells a picture that is noisy from one that is sick.
+# sums that stand still, squares that vanish, rays that hit the surface they leave (and where each remedy fails), paths that forget
+# where they were, rooms whose light dies at two speeds at once; and how to read a health report, which tells a picture that is noisy
+# from one that is sick.
 
 # %%
 from lesson import pictures, plots, scene, scenes, seed
@@ -172,6 +173,142 @@ with tempfile.TemporaryDirectory() as folder:
         )
         assert series.terms[2].max() == 0 and series.terms[3].max() == 0 and hits.count == 0, "a convex body has no second bounce"
         assert abs(series.terms[1].max() - 0.5) < 1e-6
+
+# %% [markdown]
+# ### Noisy shadows: four remedies, and where each fails
+# CS184 has a circle, $C = (1930.420, 1973.505)$, $R = 1$, that a ray from the origin towards $C$ hits at
+# $C - C / |C| = (1929.7207, 1972.7901)$ (the slide says 1929.7203, 1972.7897, which is 0.0006 off the circle, as the rounding of its centre to
+# three digits allows). In float the slide's program found $(1930.4196, 1973.5054)$: the centre. The reason is the discriminant:
+
+# %%
+C, R = np.array([1930.420, 1973.505], dtype=np.float32), np.float32(1)
+angles = np.arctan2(C[1], C[0]) + np.linspace(-3.4e-4, 3.4e-4, 9)
+print("miss by   b² − c   in double   R² − |C − b d|²")
+for angle in angles:
+    d = np.array([np.cos(angle), np.sin(angle)]).astype(np.float32)
+    found = []
+    for real in (np.float32, np.float64):
+        c_, d_ = C.astype(real), d.astype(real)
+        b = (c_ * d_).sum(dtype=real) / (d_ * d_).sum(dtype=real)
+        across = c_ - b * d_
+        found.append(((b * b - ((c_ * c_).sum(dtype=real) - real(R))), real(R) - (across * across).sum(dtype=real)))
+    print(f"{np.sqrt(max(1 - found[1][1], 0)):7.3f} {found[0][0]:8.2f} {found[1][1]:11.4f} {found[0][1]:17.4f}")
+    assert found[0][0] % 0.5 == 0 and abs(found[0][1] - found[1][1]) < 2e-3
+
+# %% [markdown]
+# $b^2$ and $|C|^2$ are 7.6 million, where floats are 0.5 apart: so the discriminant, which is between 0 and 1, can only be a multiple of 0.5,
+# and two roundings make it 2 or −0.5 as well. Where it comes out as 0 the hit is the foot of the perpendicular from the centre, as on the
+# slide. The last column computes the same number from how far the ray passes the centre, and has three digits (Haines and others 2019).
+#
+# What is left is the rounding of the hit point. CS184 names four remedies: compute in **double**; **ignore** the object that was hit last;
+# ignore hits nearer than an **offset** (here $10^{-4}$); **project** the hit point onto the surface before going on. Here is a ray tracer
+# for balls and floors, in any kind of number, whose shadow rays follow one of these rules, and four scenes: a ball that is as far from the
+# origin as CS184's circle; a bowl, which is half a ball and throws a shadow into itself; a ball of radius $10^{-5}$; and a floor that is
+# there twice.
+
+
+# %%
+def roots(o, d, shape):
+    """Where rays meet a shape, (2, n), inf where they do not."""
+    if shape["kind"] == "floor":
+        t = np.divide(shape["at"][1] - o[:, 1], d[:, 1], where=d[:, 1] != 0, out=np.full(len(d), np.inf, dtype=d.dtype))
+        far = np.abs(o + np.where(np.isfinite(t), t, 0)[:, None] * d - shape["at"])[:, ::2].max(axis=1) > shape["size"]
+        return np.array([np.where(far, np.inf, t), np.full_like(t, np.inf)])
+    f = o - shape["at"]
+    b, c = (f * d).sum(axis=1, dtype=d.dtype), (f * f).sum(axis=1, dtype=d.dtype) - shape["size"] ** 2
+    root = np.sqrt(np.maximum(b * b - c, 0))
+    t = np.array([-b - root, -b + root])
+    above = f[:, 1] + t * d[:, 1] > shape["top"] * shape["size"]
+    return np.where((b * b > c) & ~above, t, np.inf)
+
+
+def nearest(o, d, shapes, least, ignored=None):
+    """The first hit of each ray farther away than least, and its shape. ignored: for each ray a shape that it does not see."""
+    found = np.array([np.where(t > least, t, np.inf).min(axis=0) for t in (roots(o, d, shape) for shape in shapes)])
+    if ignored is not None:
+        found[ignored, np.arange(len(o))] = np.inf
+    return found.min(axis=0), found.argmin(axis=0)
+
+
+def shadows(real, shift, size, shapes, rule="", least=0.0, n=120):
+    """A picture: the cosine at the lamp where nothing is in between, 0 in shadows, nan where the camera sees nothing."""
+    shift, size = np.array(shift, dtype=np.float32).astype(real), real(np.float32(size))
+    shapes = [{"top": 2, **shape, "at": shift + size * np.array(shape["at"], dtype=real), "size": size * real(shape["size"])} for shape in shapes]
+    v, u = np.mgrid[0.45 : -0.45 : n * 1j, -0.45 : 0.45 : n * 1j]
+    d = np.stack([u.ravel(), v.ravel() - 0.55, np.full(n * n, -1.0)], axis=1).astype(np.float32).astype(real)
+    d /= np.sqrt((d * d).sum(axis=1, dtype=real))[:, None]
+    o = np.broadcast_to(shift + size * np.array([0, 3.2, 4.2], dtype=real), d.shape)
+    t, which = nearest(o, d, shapes, real(0))
+    seen, picture = np.isfinite(t), np.full(n * n, np.nan)
+    o, d, t, which = o[seen], d[seen], t[seen], which[seen]
+    p = o + t[:, None] * d
+    at, radius = np.array([s["at"] for s in shapes])[which], np.array([s["size"] for s in shapes])[which][:, None]
+    ball = np.array([s["kind"] == "ball" for s in shapes])[which][:, None]
+    normal = np.where(ball, (p - at) / np.sqrt(((p - at) ** 2).sum(axis=1, dtype=real))[:, None], np.array([0, 1, 0], dtype=real))
+    normal *= -np.sign((normal * d).sum(axis=1, dtype=real))[:, None]
+    if rule in ("project", "and offset"):
+        outward = (p - at) / np.sqrt(((p - at) ** 2).sum(axis=1, dtype=real))[:, None]
+        p = np.where(ball, at + radius * outward, np.where([False, True, False], at, p))
+    if rule == "and offset":  # a bound on how far p is off: a few roundings of its largest coordinate
+        p = p + 8 * np.finfo(real).eps * np.abs(p).max(axis=1)[:, None] * normal
+    toward = shift + size * np.array([2.2, 3.0, 1.5], dtype=real) - p
+    toward /= np.sqrt((toward * toward).sum(axis=1, dtype=real))[:, None]
+    blocked = np.isfinite(nearest(p, toward, shapes, real(least), which if rule == "ignore" else None)[0])
+    picture[seen] = np.where(blocked, 0, np.maximum((normal * toward).sum(axis=1), 0))
+    return picture.reshape(n, n)
+
+
+floor, round_ = {"kind": "floor", "at": (0, 0, 0), "size": 4}, {"kind": "ball", "at": (0, 1, 0), "size": 1}
+four = {
+    "far away": ((1930.420, 1973.505, 0), 1, [round_, floor]),
+    "a bowl": ((0, 0, 0), 1, [{**round_, "top": 0}, floor]),
+    "small": ((0, 0, 0), 1e-5, [round_, floor]),
+    "two floors": ((0, 0, 0), 1, [round_, floor, floor]),
+}
+remedies = {
+    "none": (np.float32, {}),
+    "double": (np.float64, {}),
+    "ignore": (np.float32, {"rule": "ignore"}),
+    "offset": (np.float32, {"least": 1e-4}),
+    "project": (np.float32, {"rule": "project"}),
+    "and offset": (np.float32, {"rule": "and offset"}),
+}
+figure, axes = plt.subplots(len(four), len(remedies) + 1, figsize=(10, 6.6))
+wrong = {}
+for row, (name, (shift, size, shapes)) in zip(axes, four.items()):
+    right = shadows(np.longdouble, shift, size, shapes, least=1e-6 * size)
+    row[0].imshow(right, vmin=0, vmax=1, cmap="gray")
+    row[0].set_ylabel(name, fontsize="small")
+    for axis, (remedy, (real, options)) in zip(row[1:], remedies.items()):
+        made = shadows(real, shift, size, shapes, **options)
+        wrong[name, remedy] = np.mean((made > 0) != (right > 0))
+        axis.imshow(made, vmin=0, vmax=1, cmap="gray")
+        axis.set_xlabel(f"{wrong[name, remedy]:.1%}", fontsize="small")
+    for axis in row:
+        axis.set(xticks=[], yticks=[])
+for axis, title in zip(axes[0], ["the truth", *remedies]):
+    axis.set_title(title, fontsize="small")
+plt.show()
+
+# %%
+for name in four:
+    assert min(wrong[name, "none"], wrong[name, "double"]) > 0.03 and wrong[name, "project"] > 0.03
+    assert wrong[name, "and offset"] < 1e-3  # the edge of a shadow goes through some pixels
+    assert (wrong[name, "ignore"] > 0.01) == (name in ("a bowl", "two floors")), name
+    assert (wrong[name, "offset"] > 0.01) == (name in ("far away", "small")), name
+
+# %% [markdown]
+# The figure: shadows, and below the share of pixels in which they are wrong.
+#
+# - **Double** alone changes nothing: a point that is rounded to the inside is inside, were it by $10^{-16}$, and the toss of a coin decides as
+#   before. What double does is to make a small offset sufficient.
+# - **Ignoring the last object** is perfect where it is convex. The bowl loses its shadow in itself, and of two floors in one place the
+#   other one is still there.
+# - **An offset** is a length: $10^{-4}$ is less than a rounding at 1930, and ten times the small ball, which throws no shadow for it.
+# - **Projection** brings the point as near as floats are dense, which is all that it can do: on a floor at $y = 0$ it is exact, on a ball it is
+#   not, and far away floats are as coarse as before.
+# - The last column projects *and* moves the point along the normal by a bound on what is left, 8 roundings of its largest coordinate: an
+#   offset that knows its hit. `neumann` has points that carry such a bound.
 
 # %% [markdown]
 # ## Paths that forget
