@@ -2,9 +2,9 @@
 # # 4. Monte Carlo: the same terms by random walks
 #
 # **What this teaches.** $K^i L_e$ is an integral over all paths with $i$ bounces, and an average over random walks estimates it.
-# You will see why points are random, build such a walk on a matrix, where the truth is known, predict its variance before running it, and then compare the
-# ways in which `neumann` makes paths: where they start, how they look for light, when they stop (russian roulette), and whether
-# they branch (paths or trees).
+# You will see why points are random, build such a walk on a matrix, where the truth is known, predict its variance before running
+# it, and then compare the ways in which `neumann` makes paths: where they start, how they look for light, when they stop (russian
+# roulette), and whether they branch (paths or trees).
 
 # %%
 from lesson import explore, limit, pictures, plots, scene, seed
