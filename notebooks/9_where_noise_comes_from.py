@@ -82,7 +82,7 @@ plt.show()
 # The figure: light from the lamp itself, and light that has been reflected once before. The bright spot is the lamp in the glossy wall.
 #
 # ## Seven ways to look for the lamp
-# Bounce 1 at a point $x$ is one integral in two forms, over directions and over the points $y$ of surfaces (lesson 1):
+# Bounce 1 at a point $x$ is one integral in two forms, over directions and over the points $y$ of surfaces:
 #
 # $$\int f_s(\omega)\, L_e(\omega) \cos\theta_x\, d\omega
 # = \int f_s\, L_e(y \to x)\, V(x, y)\, \frac{\cos\theta_x \cos\theta_y}{|x - y|^2}\, dA_y,
@@ -356,7 +356,7 @@ for axis, of, title in ((axes[0], ~glossy & reached, "diffuse surfaces"), (axes[
         axis.text(98, k, f"{V:.2g}", ha="right", va="center", fontsize="small", color="white")
     axis.set(title=title, xlabel="share of the variance, %", xlim=(0, 100))
 axes[0].invert_yaxis()
-figure.suptitle(" ")  # room for the legend
+figure.suptitle(" \n ", fontsize="medium")  # room for the legend
 figure.legend(*axes[0].get_legend_handles_labels(), loc="upper center", ncols=3)
 plt.show()
 
