@@ -112,7 +112,7 @@ def disc(g):
     w = np.stack([-u[..., 0], np.sqrt(np.maximum(1 - np.sum(u**2, axis=-1), 0)), -u[..., 1]], axis=-1)  # x runs to the left
     L = np.zeros(w.shape)
     L[inside] = at(place, g, w[inside])
-    return L.sum(axis=0) / np.maximum(inside.sum(axis=0), 1)[..., None], L.sum(axis=(1, 2)) / inside.sum(axis=(1, 2))[:, None]
+    return L.mean(axis=0), L.sum(axis=(1, 2)) / inside.sum(axis=(1, 2))[:, None]
 
 
 (from_lamp, lamp_mean), (from_room, room_mean) = disc(T(Le)), disc(T(reflected))
@@ -170,7 +170,7 @@ estimates = [(v.mean(), v.std(ddof=1) / np.sqrt(len(v))) for v in (over_directio
 for title, (mean, error) in zip(("directions", "the lamp"), estimates):
     print(f"direct light that leaves the cross, over {title}: {mean:.5f} ± {error:.5f}")
 assert abs(estimates[0][0] - estimates[1][0]) <= limit(15) * np.hypot(estimates[0][1], estimates[1][1])
-bright = from_lamp.any(axis=2).sum() / (np.pi / 4 * n**2)
+bright = lamp_mean[:, 0].mean() / from_lamp[..., 0].max()
 share = np.mean(rho * room_mean) / estimates[1][0]
 print(f"the lamp fills {bright:.1%} of the disc; all else brings {share:.0%} of what the lamp brings")
 
@@ -262,7 +262,7 @@ assert abs(mean[0] - surfaces[0, 0]) <= limit(15) * error[0] and error[0] < 0.01
 # %%
 figure, axes = plots(1, 4, height=0.3)
 for axis, name in zip(axes, ("L→", "L←", "W→", "W←")):
-    wall = fields[name][cube.face == 3].reshape(8, 8)
+    wall = fields[name][cube.face == 3].reshape(8, 8).T  # the ceiling is above
     axis.imshow(wall, origin="lower", vmin=0)
     axis.set(xticks=[], yticks=[])
     axis.set_title(f"{name}, up to {wall.max():.2g}", fontsize="medium")
