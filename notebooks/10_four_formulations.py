@@ -75,7 +75,7 @@ means = pictures_of[1].mean(axis=(1, 2, 3))
 error, known = means.std(ddof=1) / 4, 0.054234
 z = (means.mean() - known) / error
 print(f"mean of bounces 1 to 5: {means.mean():.6f} ± {error:.6f}, known {known}, {z:+.1f} standard errors")
-assert abs(z) <= limit(15) and error < 0.005 * known
+assert abs(z) <= limit(15) and error < 0.01 * known
 
 # %% [markdown]
 # The known mean is that of scenes/cornell-box/README.md. The same lines have made a picture: the camera is a point in space, and
