@@ -84,8 +84,8 @@ DisplayImage caption(const std::string& text, int width, int height, int font_si
     DisplayImage strip(width, height, theme.background);
     if (!font) return strip;
     int taken = text_width(text, font_size, *font);
-    if (taken > width) {
-        font_size = std::max(smallest_font, font_size * width / taken);
+    while (taken > width && font_size > smallest_font) {
+        font_size = std::max(smallest_font, std::min(font_size - 1, font_size * width / taken));
         taken = text_width(text, font_size, *font);
     }
     const int baseline = (height + 7 * font_size / 10) / 2;
