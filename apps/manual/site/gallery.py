@@ -11,7 +11,7 @@ from pathlib import Path
 
 # With 112² pixels and bounces 0 to 8 a page has 0.3 to 1.5 MB. The number of samples is fixed, and not the time, so that the site
 # has the same bits on every machine.
-OPTIONS = "-D res=112 -n 8 --spp 256".split()
+OPTIONS = "-D res=112 -n 8 --spp 128".split()
 FILES = ["index.html", "strip-terms.png", "strip-sums.png"]
 BUDGET = 2_000_000  # the largest size of an explorer, in bytes
 
