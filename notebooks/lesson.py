@@ -94,6 +94,7 @@ def pictures(shown, titles, white=None, columns=None, unit=radiance_unit):
     figure, axes = plt.subplots(rows, columns, figsize=(width, rows * (width / columns + above) + 0.4), squeeze=False)
     for axis in axes.flat:
         axis.axis("off")
+        axis.set_anchor("S")  # what room is left is above, for the title
     for axis, picture, title in zip(axes.flat, shown, titles):
         picture = np.asarray(picture, dtype=float)
         own = white or np.percentile(picture, 99) or np.max(picture) or 1.0

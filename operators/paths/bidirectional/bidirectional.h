@@ -12,7 +12,7 @@
 #include "operators/paths/bidirectional/joining_edges.h"
 #include "operators/paths/bidirectional/made_ways.h"
 #include "operators/paths/light/film_splats.h"
-#include "operators/paths/walk/walk_settings.h"
+#include "operators/paths/walk/direct_light.h"
 
 #include <algorithm>
 #include <functional>
@@ -43,7 +43,8 @@ public:
           settings_(settings),
           pixels_(pixels),
           emission_(scene.geometry, scene.emitters),
-          lights_(scene.geometry, scene.emitters, settings.direct.lights, settings.direct.place) {}
+          lights_(scene.geometry, scene.emitters, settings.direct.lights, settings.direct.place),
+          shares_out_lights_(has_several_lights(scene)) {}
 
     // Contributions of path i to its own pixel, and of its light subpath at a position on the film, times the number of pixels.
     using OnFound = std::function<void(std::uint32_t i, const WayContribution&)>;
@@ -78,6 +79,7 @@ private:
     double pixels_;
     EmissionSampler emission_;
     LightSampler lights_;
+    bool shares_out_lights_;
 };
 
 template <class Numbers, class Splatted, class Observer, class Ways>
@@ -174,7 +176,7 @@ std::uint64_t Bidirectional::trace_camera_half(std::span<const CameraRay> rays, 
                 };
                 for (int light_sample = 0; light_sample < light_samples; ++light_sample) {
                     Vec2 u = samplers[i].next2();
-                    u.x = LightSampleNumber{0, light_sample, light_samples}.in_stratum(u.x);
+                    if (shares_out_lights_) u.x = LightSampleNumber{0, light_sample, light_samples}.in_stratum(u.x);
                     if (ways.makes(i, 1, bounce + 1))
                         take(edge_to_light(*scene_, emission_, lights_, h, z, side, bounce, rest, u),
                              splits ? 1.0 / light_samples : share);

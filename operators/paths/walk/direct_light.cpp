@@ -9,6 +9,15 @@ bool misses_light(DirectLight direct, const Emitters& emitters) {
     return emitters.has_delta_lights() || (direct == DirectLight::surfaces && emitters.has_environment());
 }
 
+bool has_several_lights(const Scene& scene) {
+    const Emitters& emitters = scene.emitters;
+    if (emitters.has_delta_lights()) return true;  // on one of them there is no place to choose
+    int lights = emitters.has_environment() ? 1 : 0;
+    const auto shapes = static_cast<std::uint32_t>(scene.geometry.shapes().size());
+    for (std::uint32_t shape = 0; shape < shapes && lights < 2; ++shape) lights += emitters.is_emitter(shape) ? 1 : 0;
+    return lights > 1;
+}
+
 DirectLightSampler::DirectLightSampler(const Scene& scene, const DirectLightSettings& settings)
     : emitters_(&scene.emitters),
       settings_(settings),
@@ -18,6 +27,7 @@ DirectLightSampler::DirectLightSampler(const Scene& scene, const DirectLightSett
         light_samples_ = lights_.samples_per_point();
     const bool by_power = settings.direct == DirectLight::mis && settings.heuristic == Heuristic::power;
     samples_even_points_ = (by_power || settings.direct == DirectLight::light) && lights_.finds_even_points();
+    shares_out_lights_ = settings.lights != LightChoice::all && has_several_lights(scene);
     if (settings.direct == DirectLight::surfaces) surfaces_.emplace(scene.geometry);
 }
 

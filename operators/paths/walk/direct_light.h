@@ -14,8 +14,11 @@ namespace neumann {
 // Whether the strategy cannot find some light: no ray meets a light without extent, and points on surfaces miss an environment.
 bool misses_light(DirectLight direct, const Emitters& emitters);
 
+// Whether there are lights to choose among.
+bool has_several_lights(const Scene& scene);
+
 // One of the light samples at a vertex: the number of the light, of LightChoice::all, and the stratum of the number that chooses
-// among lights and, on a light, in one direction. Of n samples light j then gets n p_j, rounded up or down.
+// among lights. Of n samples light j then gets n p_j, rounded up or down.
 struct LightSampleNumber {
     std::size_t light = 0;
     int stratum = 0, strata = 1;
@@ -35,6 +38,8 @@ public:
     // Whether light that the BSDF's direction hits counts.
     bool counts_what_is_hit() const { return settings_.direct == DirectLight::bsdf || settings_.direct == DirectLight::mis; }
 
+    // The strata of this number of light samples at a vertex: one where there is nothing to share out.
+    int strata(int samples) const { return shares_out_lights_ ? samples : 1; }
     // A light sample before its shadow ray is cast. The ray finds whether `point` is visible or, if directions are sampled, what is
     // visible along `w`. `weight` is Le / pdf of a point, or 1 / pdf of a direction, which multiplies the Le that is found.
     template <class Sampler>
@@ -42,12 +47,11 @@ public:
         switch (settings_.direct) {
             case DirectLight::hemisphere:
             case DirectLight::cosine: {
-                Vec2 u = sampler.next2();
-                u.x = number.in_stratum(u.x);
+                const Vec2 u = sampler.next2();
                 return sample_direction(side, u, transmits(*side.bsdf) ? sampler.next() : 0.0);
             }
             case DirectLight::surfaces: {
-                const double choice = number.in_stratum(sampler.next());
+                const double choice = sampler.next();
                 return sample_surface(side.p, choice, sampler.next2());
             }
             default: {
@@ -80,7 +84,7 @@ private:
     LightSampler lights_;
     std::optional<AreaSampler> surfaces_;
     std::size_t light_samples_;
-    bool samples_even_points_;
+    bool samples_even_points_, shares_out_lights_;
 };
 
 }  // namespace neumann

@@ -57,7 +57,7 @@ struct ContinuedSteps : WalkSteps<Walkers> {
                 if (light_samples > 0)
                     choose_light_sample(direct,
                                         {number % direct.light_samples(), static_cast<int>((number - 1) / direct.light_samples()),
-                                         first ? split.lights : 1},
+                                         first ? direct.strata(split.lights) : 1},
                                         distribution, directions_of_bounce, side, wo, samplers[i], w);
                 if (number < light_samples) return true;
                 BsdfSample sampled;
