@@ -227,8 +227,8 @@ int strip_command(const StripRequest& given) {
             const BounceSeries& series = rendering->series;
             if (chosen) bounces = series.bounces();
             tiles = tiles_of(of, series, request);
-            sum = series.sum(static_cast<std::size_t>(series.bounces())).mean;
-            emission = series.term(0).mean;
+            sum = as_in_file(series.sum(static_cast<std::size_t>(series.bounces()))).mean;
+            emission = as_in_file(series.term(0)).mean;
             const Warnings of_render = rendering->warnings();
             for (const auto& [text, count] : of_render.counts()) warnings.add(text, count);
         } catch (const Stopped&) {
