@@ -46,8 +46,8 @@ for A in (lambda: T, lambda: box.R(seed=seed), lambda: box.R(seed=seed) @ T):  #
 
 # %% [markdown]
 # Both are linear. $K L_e$ waits for directions that meet the lamp, as in lesson 1. Points *on* the lamp do better, and that is a
-# field, too: `direct` below is $K L_e$ as an integral over the lamp's surface. All that is reflected is then $K L_e + K (K L_e + K
-# (K L_e + \dots))$, which in Python is as long as on paper.
+# field, too: `direct` below is $K L_e$ as an integral over the lamp's surface. All that is reflected is then
+# $K L_e + K (K L_e + K (K L_e + \dots))$, which in Python is as long as on paper.
 
 
 # %%
