@@ -514,7 +514,7 @@ assert mirrored.suspects[0].name == "flipped_x"
 # The whole, all bounces, with more and more samples:
 
 # %%
-pixels = 80
+pixels = 64
 room = cornell(pixels, mirror, type="thinlens", aperture_radius=aperture, focus_distance=focus)
 counts = (1, 8, 64)
 pictures(
