@@ -89,7 +89,7 @@ class Display(Case):
             scene, scene.plan(), series, series[1], series[1:], series.ways[0], series.run, neumann.compare(series[0], series[1]),
             scene.chain(1, states=50), scene.photons(500), scene.records(bounces=1, directions=16), lights, lights.unbounce(quiet=True),
             scene.matrices(**size), operators, operators.symmetrised(), scene.solve(**size), scene.spectrum(**size),
-            neumann.series([[0.5]], [1.0]), neumann.solve([[0.5]], [1.0]), neumann.cube(2),
+            neumann.series([[0.5]], [1.0]), neumann.solve([[0.5]], [1.0]), neumann.cube(2), scene.R() @ scene.T,
             scene.study(["walk", "light"], samples=[1, 2], repeats=2, bounces=1, reference_spp=16, quiet=True),
             neumann.blame(scene, {1: series.terms[0], 2: series.sums[1]}, spp=16, quiet=True),
         ]

@@ -37,7 +37,7 @@ LIMITS = {
     "metropolis": 8,
     "bidirectional": 36,
     "photon": 19,
-    "lines of core, operators and apps": 101386,
+    "lines of core, operators and apps": 101389,
     "lines of tests": 46231,
 }
 

@@ -40,6 +40,9 @@ class FieldOperator:
     def __repr__(self) -> str:
         return f"<FieldOperator {self._name}>"
 
+    def _repr_html_(self) -> str:
+        return f"<p>{self._name}, an operator on functions of points and directions</p>"
+
 
 class OnFunctions(RayQueries):
     """A scene whose Le is a function, and whose T and R make functions of functions."""
