@@ -42,7 +42,7 @@ TEST(WhatIf, WithoutAMistakeIsTheWalk) {
         const BounceSeries walk = render(scene, method::Walk{}, goal);
         const std::vector<WrongTerms> all = wrong_terms(scene, {{0, 0}, {1, 1}, {2, 2}, {3, 3}}, 1024, 1);
         const WrongTerms& none = all.front();
-        ASSERT_EQ(none.mistake, Mistake::none);
+        ASSERT_EQ(none.mistake(), Mistake::none);
         for (std::size_t i = 0; i <= 3; ++i) {
             double variance = 0.0;  // channels are alike here
             for (const Rgb& v : none.terms[i].variance.pixels) variance += v.r / (256.0 * 256.0);
@@ -64,7 +64,7 @@ TEST(WhatIf, TheTwoTechniquesShareTheLight) {
     maker.parts.film = {16, 16, 0, 0, 16, 16};
     const std::vector<WrongTerms> all = wrong_terms(maker.make(), {{1, 1}, {2, 2}}, 16, 1);
     const auto mean = [&](Mistake mistake, std::size_t i) {
-        const auto found = std::find_if(all.begin(), all.end(), [&](const WrongTerms& w) { return w.mistake == mistake; });
+        const auto found = std::find_if(all.begin(), all.end(), [&](const WrongTerms& w) { return w.mistake() == mistake; });
         return mean_of_channels(found->terms[i].mean);
     };
     for (std::size_t i = 0; i < 2; ++i) {

@@ -15,6 +15,9 @@ namespace {
 // share the same four samples, these lie off the middle, in 1 of 20 pictures so far that a shift leaves as little.
 constexpr double most_left_of_sure = 0.1, most_left_of_signs = 0.35;
 
+// Those that change bounce 0.
+bool is_of_emission(Mistake mistake) { return mistake == Mistake::no_emission || mistake == Mistake::lamps_shine_back; }
+
 bool is_of_sure_light(Mistake mistake) {
     return mistake == Mistake::no_emission || mistake == Mistake::no_light_after_mirror || mistake == Mistake::no_mirrors;
 }
@@ -42,8 +45,8 @@ std::vector<SureCause> find_sure_causes(ExpectedPictures& expected, const std::v
         if (c.bounces.first == 0) wrong = moved_pictures({right}, are_sums);
         if (c.bounces.last == 0) wrong.push_back({"factor", "a factor", {scaled(right.ours, fitted_factor(c.theirs, c.ours))}});
         for (const WrongTerms& w : *made)
-            if (c.bounces.last == 0 ? w.mistake != Mistake::clamped : is_of_sure_light(w.mistake))
-                wrong.push_back({name_of(w.mistake), describe(w.mistake), {w.terms[i]}});
+            if (c.bounces.last == 0 ? is_of_emission(w.mistake()) : is_of_sure_light(w.mistake()))
+                wrong.push_back({w.kind->name, w.kind->words, {w.terms[i]}});
         const double threshold = false_alarms / static_cast<double>(2 * compared.size() * wrong.size());
         const auto consider = [&](const WrongPictures& w, const SurePixels& found, double most_left) {
             if (found.p < threshold && found.left < std::min(most_left, causes[i].left)) causes[i] = {w.words, found.left};

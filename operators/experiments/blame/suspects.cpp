@@ -65,14 +65,14 @@ std::vector<Suspect> find_suspects(ExpectedPictures& expected, const std::vector
     std::vector<BounceRange> ranges;
     for (const ComparedTerm& t : terms) ranges.push_back(t.bounces);
     for (const WrongTerms& w : *expected.wrong(ranges)) {
-        if (w.mistake == Mistake::none) continue;
-        suspects.add(name_of(w.mistake), describe(w.mistake), w.terms, 0, false);
-        if (w.mistake != Mistake::no_inverse_square) continue;
+        if (w.mistake() == Mistake::none || (w.mistake() == Mistake::no_samples_at_the_end && !are_sums)) continue;
+        suspects.add(w.kind->name, w.kind->words, w.terms, 0, false);
+        if (w.mistake() != Mistake::no_inverse_square && w.mistake() != Mistake::inverse_distance) continue;
         // Without 1/d² light has no unit, and may have any scale.
         const double factor = fitted_factor(terms[0].theirs, w.terms[0]);
         std::vector<PictureNoise> rescaled;
         for (const PictureNoise& p : w.terms) rescaled.push_back(scaled(p, factor));
-        suspects.add(name_of(w.mistake), describe(w.mistake), rescaled, 1, false);
+        suspects.add(w.kind->name, w.kind->words, rescaled, 1, false);
     }
     for (const WrongPictures& w : *expected.without_techniques(ranges)) suspects.add(w.name, w.words, w.terms, 0, false);
     return suspects.likeliest_first();
