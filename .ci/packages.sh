@@ -12,6 +12,7 @@ libopenimageio-dev  | OpenImageIO 2.4 or later                | OpenImageIO/imag
 libopenexr-dev      | OpenEXR 3.1 or later                    | OpenEXR/ImfOutputFile.h
 libpng-dev          | libpng                                  | png.h
 libgif-dev          | giflib 5                                | gif_lib.h
+libhpdf-dev         | libharu 2.3 or later, PDF files         | hpdf.h
 libfreetype-dev     | FreeType                                | freetype2/ft2build.h
 libdeflate-dev      | libdeflate                              | libdeflate.h
 libglm-dev          | GLM                                     | glm/glm.hpp

@@ -2,6 +2,7 @@
 
 #include "apps/output/files/health_json.h"
 #include "apps/output/files/json_text.h"
+#include "apps/output/files/series_figures.h"
 #include "apps/output/files/series_files.h"
 #include "apps/output/files/ways_files.h"
 #include "apps/output/pages/explorer_page.h"
@@ -58,6 +59,7 @@ WrittenRendering write_rendering(const Rendering& rendering, OutputFolder& folde
         folder.write("series.csv", series_table(series.report));
         folder.write("convergence.csv", convergence);
     }
+    if (files.figures) write_figures(folder, series.report);
     const auto json = run_json(rendering, warnings, folder.path().string(), rendering.seconds + watch.seconds());
     std::string data, why_no_paths;
     if (files.page) {

@@ -84,7 +84,8 @@ Option<Request> output_option(std::string Request::*folder, std::string meaning)
 template <class Request>
 Option<Request> files_option(std::vector<std::string> Request::*files) {
     return option<Request>("files", fmt::format("WHAT:{{{}}}", fmt::join(all_file_groups(), ",")),
-                           "What is written beside run.json; default all of these but layers, which is one file of all pictures",
+                           "What is written beside run.json; default all of these but layers, which is one file of all "
+                           "pictures, and figures, which are for papers",
                            files, one_of(all_file_groups()))
         .with_commas();
 }

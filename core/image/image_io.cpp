@@ -33,6 +33,7 @@ void write_exr_parts(const std::filesystem::path& path, std::size_t count, const
 }
 std::string encode_png(const DisplayImage& picture, const std::string& comment) { return writer().encode_png(picture, comment); }
 std::string encode_gif(const DisplayImage& picture) { return writer().encode_gif(picture); }
+std::string encode_pdf(const Drawing& drawing) { return writer().encode_pdf(drawing); }
 PixelEstimate read_exr(const std::string& path, Attributes* attributes) {
     expect_input(path, "a picture");
     return reader().read_exr(path, attributes);

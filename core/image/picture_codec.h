@@ -1,6 +1,7 @@
 // The functions of image_io.h that the modules for pictures offer.
 #pragma once
 
+#include "core/image/drawing.h"
 #include "core/image/exr_parts.h"
 #include "core/image/image_io.h"
 
@@ -19,6 +20,7 @@ struct PictureWriter {
     decltype(&neumann::write_exr_parts) write_exr_parts;
     decltype(&neumann::encode_png) encode_png;
     decltype(&neumann::encode_gif) encode_gif;
+    decltype(&neumann::encode_pdf) encode_pdf;
     decltype(&neumann::find_label_font) find_label_font;
     decltype(&neumann::text_width) text_width;
     decltype(&neumann::draw_text) draw_text;

@@ -18,7 +18,7 @@ ROOMS = {
     "operators/fields": "patches matrix shared",
     "operators/render": "plan from_paths from_fields report methods",
     "apps": "manual requests output live processes commands command_line python",
-    "apps/output": "sheets files pages study",
+    "apps/output": "sheets figures files pages study",
 }
 
 # What no file of the first pattern reaches, by whatever it includes; the third is reached, or nothing was looked at.

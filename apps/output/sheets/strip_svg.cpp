@@ -1,6 +1,7 @@
 #include "apps/output/sheets/strip_svg.h"
 
 #include "apps/output/sheets/mark.h"
+#include "apps/output/sheets/xml_text.h"
 #include "core/image/image_io.h"
 #include "core/image/resize.h"
 
@@ -25,19 +26,13 @@ std::string base64(const std::string& bytes) {
     return out;
 }
 
-std::string escaped(const std::string& text) {
-    std::string out;
-    for (const char c : text) out += c == '<' ? "&lt;" : c == '&' ? "&amp;" : std::string(1, c);
-    return out;
-}
-
 // A line of text whose upper side is at `top`, `at` its middle or, with the anchor start, its left side.
 std::string line_of_text(const std::string& text, int at, int top, int width, int font_size, const char* anchor = "") {
     const int size = fitting_size(text, width, font_size);
     std::string attributes = *anchor ? fmt::format(" text-anchor=\"{}\"", anchor) : "";
     if (size != strip_label_size) attributes += fmt::format(" font-size=\"{}\"", size);
     return fmt::format("<text x=\"{}\" y=\"{}\"{}>{}</text>\n", at, top + (label_height(font_size) + 7 * size / 10) / 2, attributes,
-                       escaped(text));
+                       xml_text(text));
 }
 
 std::string mark_svg(const PlaceOfMark& place) {
@@ -82,7 +77,7 @@ std::string strip_svg(const Strip& strip, double exposure, SheetTheme theme, con
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\" font-family=\"DejaVu Sans, "
         "sans-serif\" font-size=\"{2}\" text-anchor=\"middle\" fill=\"{3}\">\n",
         at.whole_width(), at.whole_height() + height_below(words.size()), strip_label_size, grey(theme.text));
-    if (!comment.empty()) svg += fmt::format("<desc>{}</desc>\n", escaped(comment));
+    if (!comment.empty()) svg += fmt::format("<desc>{}</desc>\n", xml_text(comment));
     svg += fmt::format("<rect width=\"100%\" height=\"100%\" fill=\"{}\"/>\n", grey(theme.background));
     for (int r = 0; r < at.rows; ++r) {
         int c = 0;

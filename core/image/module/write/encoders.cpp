@@ -4,7 +4,7 @@
 
 extern "C" const neumann::PictureWriter* neumann_picture_writer() {
     using namespace neumann::encoders;
-    static const neumann::PictureWriter writer{encode_exr,      write_exr_parts, encode_png, encode_gif,
-                                               find_label_font, text_width,      draw_text};
+    static const neumann::PictureWriter writer{encode_exr, write_exr_parts, encode_png, encode_gif,
+                                               encode_pdf, find_label_font, text_width, draw_text};
     return &writer;
 }
