@@ -182,12 +182,13 @@ StudyEnd run_study(StudyRequest request, const std::map<std::string, OwnEstimato
 
     const Stopwatch pilot_watch;
     const std::optional<int> given = request.resume    ? journal.plan.at("bounces").get<int>()
-                                     : request.bounces ? request.bounces
+                                     : request.bounces ? std::optional(request.bounces->last)
                                                        : scene.bounces;
     const Pilot pilot(scene, {}, request.seed, given.value_or(0));
     StudyData data{request, methods, scene, pilot, crew, 0, {}, {}, scene_seconds, 0.0, true, {}, {}, {}, false};
     data.pilot_seconds = pilot_watch.seconds();
     data.bounces = given ? *given : default_bounces(pilot);
+    if (request.bounces) data.first_bounce = request.bounces->first;
     auto reference = given_reference(request, scene.film, data.bounces);
 
     const auto nothing_done = [&] {
@@ -257,19 +258,28 @@ StudyEnd run_study(StudyRequest request, const std::map<std::string, OwnEstimato
     if (!makes_reference) tell();
     run_all(data, journal, folder, status);
     const Film& film = scene.film;
-    data.points = study_points(journal.runs, data.plan, data.reference.pictures, [&](std::size_t n, std::size_t q) {
-        return journal.picture(n, q, film.crop_width, film.crop_height, data.pictures());
-    });
+    const auto picture = [&](std::size_t n, std::size_t q) {
+        return journal.picture(n, q, film.crop_width, film.crop_height, data.pictures_of_run());
+    };
+    if (data.first_bounce) data.reference.pictures.push_back(together(data.reference.pictures, data.of_verdict()));
+    data.points = study_points(
+        journal.runs, data.plan, data.reference.pictures,
+        [&](std::size_t n, std::size_t q) {
+            if (q < data.pictures_of_run()) return picture(n, q);
+            std::vector<Image> parts;
+            for (std::size_t i = data.of_verdict().first; i <= data.of_verdict().last; ++i) parts.push_back(picture(n, i));
+            return stacked(parts);
+        },
+        data.of_verdict());
     const auto pictures = summarise(data.points, data.plan, data.reference.pictures, request.error);
     if (!pictures.empty()) {
-        data.crops = compare_crops(
-            journal.runs, data.points, data.plan, data.reference.pictures.back(), crops, found_crops, [&](std::size_t n) {
-                return journal.picture(n, data.pictures() - 1, film.crop_width, film.crop_height, data.pictures());
-            });
+        data.crops = compare_crops(journal.runs, data.points, data.plan, data.reference.pictures[data.sum()], crops, found_crops,
+                                   [&](std::size_t n) { return picture(n, data.sum()); });
         const Json json = study_json(data, pictures);
         folder.write("study.csv", study_csv(data));
         folder.write("study.json", json_text(json, 2) + "\n");
         folder.write("index.html", study_page(data, json));
+        write_figures(folder, data, pictures);
         folder.commit();
         found(data, pictures, json);
     }

@@ -4,6 +4,26 @@
 
 namespace neumann {
 
+namespace {
+
+// "4" and "1-4".
+Form<StudiedBounces> studied_bounces() {
+    const auto whole = whole_from<int>(0, 100000);
+    const auto read = [=](const std::string& text) -> std::optional<StudiedBounces> {
+        const std::size_t dash = text.find('-');
+        const auto last = whole.read(dash == std::string::npos ? text : text.substr(dash + 1));
+        if (!last || dash == std::string::npos) return last ? std::optional(StudiedBounces{{}, *last}) : std::nullopt;
+        const auto first = whole.read(text.substr(0, dash));
+        return first && *first <= *last ? std::optional(StudiedBounces{first, *last}) : std::nullopt;
+    };
+    const auto print = [](const StudiedBounces& bounces) {
+        return bounces.first ? fmt::format("{}-{}", *bounces.first, bounces.last) : fmt::format("{}", bounces.last);
+    };
+    return {read, print, not_a("the last bounce, from 0 to 100000, or the first and the last, as in 1-4")};
+}
+
+}  // namespace
+
 const Options<StudyRequest>& study_options() {
     using R = StudyRequest;
     static const Options<R> options{
@@ -37,7 +57,11 @@ const Options<StudyRequest>& study_options() {
                    "itself, as short runs foretell",
                    &R::interval, above_zero())
              .not_with("repeats"),
-         bounces_option<R>(&R::bounces, "The last bounce that is compared"),
+         option<R>("bounces", "BOUNCES",
+                   "The last bounce that is compared; or the first and the last, as in 1-4, on which the verdict then is: without "
+                   "bounce 0, whose error is that of the lamps' edges",
+                   &R::bounces, studied_bounces())
+             .with_letter('n'),
          option<R>("error", "REL", "Relative RMSE for the time to a given error; default the smallest that all methods reach",
                    &R::error, above_zero()),
          option<R>("crop", "X,Y,WIDTH,HEIGHT",

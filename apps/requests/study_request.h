@@ -11,6 +11,12 @@
 
 namespace neumann {
 
+// Bounces 0 to `last` are rendered; the verdict is on `first` to `last` if there is a first, else on the sum of all.
+struct StudiedBounces {
+    std::optional<int> first = {};
+    int last = 0;
+};
+
 struct StudyRequest {
     SceneFile scene;
     std::string output;  // a folder; empty: out/NAME-study
@@ -23,7 +29,7 @@ struct StudyRequest {
     std::size_t repeats = 16;
     std::optional<double> interval;  // relative half width of the 95% interval of the sum's RMSE, for which repeats are chosen
     std::vector<std::string> crops;  // X,Y,WIDTH,HEIGHT
-    std::optional<int> bounces;
+    std::optional<StudiedBounces> bounces;
     std::optional<double> error;  // relative RMSE, for the time to a given error
     std::uint64_t seed = 0;
     int threads = 0;                   // 0: all

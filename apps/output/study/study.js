@@ -10,7 +10,7 @@ const savesOf = (shown, name, what, textual) => {
   line.append(...savingTable(name, what, rowsOf(shown), textual));
   return line;
 };
-const pictureTitle = p => p.bounce === "sum" ? `sum of bounces 0 to ${study.bounces}` : `bounce ${p.bounce}`;
+const pictureTitle = p => p.bounce === "sum" ? `sum of bounces 0 to ${study.bounces}` : p.bounce.includes("-") ? `bounces ${p.bounce.replace("-", " to ")} together` : `bounce ${p.bounce}`;
 
 const sceneName = study.scene.file.split("/").pop();
 document.title = $("title").textContent = `${sceneName}: error against time`;
@@ -26,7 +26,7 @@ if (warnings.length > 3) {
 const definitions = Object.entries(study.scene.definitions).map(([k, v]) => `${k}=${v}`).join(", ");
 facts("facts", [
   ["scene", `${study.scene.file}${definitions ? ` with ${definitions}` : ""}, ${study.picture.width} × ${study.picture.height} pixels, hash ${study.scene.hash}`],
-  ["bounces", `0 to ${study.bounces}, and their sum`],
+  ["bounces", `0 to ${study.bounces}, and their sum${study.verdict_on === "sum" ? "" : `; the verdict is on ${study.verdict_on.replace("-", " to ")} together, whose MSE is the mean of theirs`}`],
   ["repeats", `${study.repeats} of each method at each budget${study.interval ? `, for an interval of ± ${number(100 * study.interval)}% of the sum's RMSE` : ""}, seed ${study.seed}, ${study.threads} threads`],
   ["reference", study.reference.description + (study.reference.exact ? "" : study.reference.from_cache ? "; from the cache" :
      study.reference.seconds > 0 ? `; made in ${number(study.reference.seconds)} s` : "") +
@@ -38,5 +38,5 @@ facts("facts", [
   ["command", element("code", study.command)],
   ["program", `neumann ${study.program.version}, ${study.program.ray_caster}`]]);
 facts("definitions", Object.entries(study.definitions).map(([k, v]) => [k.replaceAll("_", " "), v]));
-const sumMethods = study.pictures[study.pictures.length - 1].methods;
+const sumMethods = study.pictures.find(p => p.bounce === "sum").methods;
 const sumOf = name => sumMethods.find(m => m.method === name);

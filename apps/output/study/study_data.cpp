@@ -10,7 +10,8 @@
 namespace neumann {
 
 std::string StudyData::picture_name(std::size_t picture) const {
-    return picture + 1 == pictures() ? "sum" : std::to_string(picture);
+    if (picture > sum()) return fmt::format("{}-{}", of_verdict().first, of_verdict().last);
+    return picture == sum() ? "sum" : std::to_string(picture);
 }
 
 std::vector<std::string> StudyData::warnings() const {
@@ -35,7 +36,7 @@ std::vector<std::string> StudyData::warnings() const {
             all.push_back(fmt::format("{}: a run took {}; efficiencies, ranks, slopes and times to an error are of what it took",
                                       methods[m].name, missed));
         std::string bounces;
-        for (std::size_t i = 0; i + 1 < pictures(); ++i)
+        for (std::size_t i = 0; i < sum(); ++i)
             if (std::any_of(of_method.begin(), of_method.end(), [&](const StudyPoint* p) { return p->infinite_variance(i); }))
                 bounces += (bounces.empty() ? "" : ", ") + picture_name(i);
         if (!bounces.empty())
@@ -60,18 +61,18 @@ std::string study_csv(const StudyData& data) {
         for (std::size_t j = 0; j < point.runs.size(); ++j) {
             const StudyRun& run = point.runs[j];
             for (std::size_t q = 0; q < data.pictures(); ++q) {
-                const bool is_sum = q + 1 == data.pictures();
+                const bool is_bounce = q < data.sum();
                 const ErrorStatistics& errors = point.errors[q];
                 const auto number = [](std::uint64_t n) { return n ? std::to_string(n) : std::string(); };
                 const char* variance = point.infinite_variance(q) ? "infinite" : "finite";
-                if (!is_sum && run.variance[q] == '?') variance = "unknown";
+                if (is_bounce && run.variance[q] == '?') variance = "unknown";
                 csv += fmt::format("{},{:g},{},{},{},{},{},{},{:.6g},{:.6g},{},{:.0f},{:.6g},{},{:.6g},{:.9g},{},{}\n",
                                    data.methods[run.method].name, data.plan.budgets[run.budget], run.repeat, data.picture_name(q),
                                    run.samples, number(run.patches), number(run.directions), run.seed, run.setup_seconds,
-                                   run.seconds - run.setup_seconds, is_sum ? run.all_rays() : run.rays[q], run.peak_memory,
+                                   run.seconds - run.setup_seconds, is_bounce ? run.rays[q] : run.all_rays(), run.peak_memory,
                                    errors.mse[j], errors.mse[j] >= 0.0 ? fmt::format("{:.6g}", std::sqrt(errors.mse[j])) : "",
-                                   errors.rel_mse[j], run.mean[q],
-                                   run.discretisation.empty() ? "" : fmt::format("{:.6g}", run.discretisation[q]), variance);
+                                   errors.rel_mse[j], q <= data.sum() ? run.mean[q] : run.mean_of(data.of_verdict()),
+                                   q >= run.discretisation.size() ? "" : fmt::format("{:.6g}", run.discretisation[q]), variance);
             }
         }
     return csv;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "apps/output/study/study_reference.h"
+#include "operators/experiments/study/bounces_together.h"
 #include "operators/experiments/study/compared_crops.h"
 #include "operators/experiments/study/verdict.h"
 
@@ -28,11 +29,16 @@ struct StudyData {
     std::vector<std::string> left_out;  // methods that refuse the scene, and why, if none were named
     std::vector<ComparedCrop> crops;
     bool complete = false;
+    std::optional<int> first_bounce = {};  // of the verdict; none: it is on the sum of all
 
-    std::size_t pictures() const { return static_cast<std::size_t>(bounces) + 2; }               // the last is the sum
+    // Of a run: the bounces, and their sum. A verdict on some bounces is on one picture more, these together.
+    std::size_t sum() const { return static_cast<std::size_t>(bounces) + 1; }
+    std::size_t pictures_of_run() const { return sum() + 1; }
+    std::size_t pictures() const { return pictures_of_run() + (first_bounce ? 1 : 0); }  // the verdict is on the last
+    BounceRange of_verdict() const { return {static_cast<std::size_t>(first_bounce.value_or(0)), sum() - 1}; }
     std::size_t runs() const { return request.repeats * plan.budgets.size() * methods.size(); }  // in all
-    std::string picture_name(std::size_t picture) const;                                         // "0" … "sum"
-    std::string picture_title(std::size_t picture) const;  // "bounce 0" … "the sum of bounces 0 to 4"
+    std::string picture_name(std::size_t picture) const;                                         // "0" … "sum", "1-4"
+    std::string picture_title(std::size_t picture) const;  // "bounce 0" … "the sum of bounces 0 to 4", "bounces 1 to 4 together"
     std::vector<std::string> warnings() const;
     // The least number of any point; smaller than requested if the study was cut off.
     std::size_t fewest_repeats() const;
@@ -53,6 +59,8 @@ std::string study_csv(const StudyData& data);
 nlohmann::ordered_json study_json(const StudyData& data, const std::vector<StudiedPicture>& pictures);
 void print_study(const StudyData& data, const std::vector<StudiedPicture>& pictures);
 std::string study_page(const StudyData& data, const nlohmann::ordered_json& study);
+// Writes figure-error.svg, figure-error.pdf and verdict.tex, of what the verdict is on.
+void write_figures(OutputFolder& folder, const StudyData& data, const std::vector<StudiedPicture>& pictures);
 // "In bounce 1 matrix is 160 times as fast as walk (140 to 180)."
 std::string verdict_text(const StudyData& data, std::size_t picture, const StudyVerdict& verdict);
 

@@ -18,7 +18,7 @@ const heatColour = part => {
   const [r, g, b] = [bits & 255, bits >> 8 & 255, bits >> 16 & 255];
   return { back: `rgb(${r}, ${g}, ${b})`, ink: luminance(r, g, b) > 110 ? "#111111" : "#ffffff" };
 };
-const heatHead = ["method", ...study.pictures.map(p => p.bounce === "sum" ? "sum" : `bounce ${p.bounce}`)];
+const heatHead = ["method", ...study.pictures.map(p => p.bounce === "sum" ? "sum" : `bounce${p.bounce.includes("-") ? "s" : ""} ${p.bounce}`)];
 const heatRows = study.methods.map(({ name }, m) => [name, ...heat[m].map(c => c.text)]);
 const heatTable = table(heatHead, heatRows, [0]);
 heat.forEach((row, m) => row.forEach(({ part, title }, q) => {

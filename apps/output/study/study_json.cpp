@@ -116,6 +116,7 @@ Json study_json(const StudyData& data, const std::vector<StudiedPicture>& pictur
     json["scene"] = scene_json(data.scene, request.scene);
     json["picture"] = {{"width", data.scene.film.crop_width}, {"height", data.scene.film.crop_height}};
     json["bounces"] = data.bounces;
+    json["verdict_on"] = data.picture_name(data.pictures() - 1);
     json["repeats"] = request.repeats;
     if (request.interval) json["interval"] = *request.interval;
     json["seed"] = request.seed;

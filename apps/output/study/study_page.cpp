@@ -28,7 +28,7 @@ PackedSeries packed(const ComparedCrop& crop) {
 
 std::string study_page(const StudyData& data, const Json& study) {
     std::deque<std::string> parts;
-    Json pictures = {{"exposure", exposure_for(data.reference.pictures.back().mean, data.reference.pictures.front().mean)}};
+    Json pictures = {{"exposure", exposure_for(data.reference.pictures[data.sum()].mean, data.reference.pictures.front().mean)}};
     const auto add = [&](const std::string& name, const PackedSeries& series) {
         Json head = series.head();
         head["heads"] = Json::array();
@@ -39,7 +39,7 @@ std::string study_page(const StudyData& data, const Json& study) {
         }
         return head;
     };
-    const Image& whole = data.reference.pictures.back().mean;
+    const Image& whole = data.reference.pictures[data.sum()].mean;
     PackedSeries overview(whole.width, whole.height, 1);
     overview.add_term(0, Estimate{whole, {}});
     overview.pack();

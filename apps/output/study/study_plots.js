@@ -54,7 +54,7 @@ const drawing = chart => {
   return svg;
 };
 const charts = study.pictures.map(picture => {
-  const isSum = picture.bounce === "sum", cell = element("div", undefined, isSum ? "sum" : ""), holder = element("div", undefined, "plot"), canvas = element("canvas");
+  const isSum = picture.bounce === "sum" || picture.bounce === study.verdict_on, cell = element("div", undefined, isSum ? "sum" : ""), holder = element("div", undefined, "plot"), canvas = element("canvas");
   holder.append(canvas);
   cell.append(holder);
   if (isSum) $("plots").prepend(cell); else $("plots").append(cell);
@@ -76,7 +76,7 @@ const charts = study.pictures.map(picture => {
     plugins: [intervals(() => $("bars").checked), whereEmpty(() => $("y").value === "bias" ? "no bias² above 0 at 99.9%" : "nothing above 0")]
   });
   const saves = element("div", undefined, "line saves");
-  saves.append(...savingPlot(`${$("y").value}-${isSum ? "sum" : `bounce-${picture.bounce}`}`, pictureTitle(picture), () => drawing(chart), () => csvPlot(chart)));
+  saves.append(...savingPlot(`${$("y").value}-${picture.bounce === "sum" ? "sum" : `bounce-${picture.bounce}`}`, pictureTitle(picture), () => drawing(chart), () => csvPlot(chart)));
   cell.append(saves);
   return { picture, chart };
 });

@@ -13,8 +13,8 @@ namespace neumann {
 using Json = nlohmann::ordered_json;
 
 void expect_disk_space(const StudyData& data, const std::filesystem::path& folder) {
-    const double bytes = static_cast<double>(data.runs()) * static_cast<double>(data.pictures()) * data.scene.film.crop_width *
-                         data.scene.film.crop_height * 3.0 * sizeof(float);
+    const double bytes = static_cast<double>(data.runs()) * static_cast<double>(data.pictures_of_run()) *
+                         data.scene.film.crop_width * data.scene.film.crop_height * 3.0 * sizeof(float);
     std::error_code error;
     const auto space = std::filesystem::space(folder, error);
     if (!error && bytes > 0.9 * static_cast<double>(space.available))
@@ -24,7 +24,7 @@ void expect_disk_space(const StudyData& data, const std::filesystem::path& folde
 }
 
 void run_all(StudyData& data, StudyJournal& journal, OutputFolder& folder, const StudyStatus& status) {
-    const std::size_t N = data.pictures() - 2;
+    const std::size_t N = data.sum() - 1;
     while (journal.runs.size() < data.runs()) {
         const std::size_t at = journal.runs.size();
         const auto [method, budget, repeat] = place_of_run(at, data.plan);

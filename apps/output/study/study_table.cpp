@@ -69,10 +69,8 @@ void print_study(const StudyData& data, const std::vector<StudiedPicture>& pictu
     fmt::print("{}\n\n", folded(verdict_text(data, pictures.size() - 1, verdict_on(pictures.back(), data.fewest_repeats()))));
     for (std::size_t q = 0; q < pictures.size(); ++q) {
         const StudiedPicture& p = pictures[q];
-        const std::string title =
-            q + 1 == data.pictures() ? fmt::format("sum of bounces 0 to {}", data.bounces) : "bounce " + data.picture_name(q);
-        fmt::print("{}   (rms of the reference {:.4g}, its noise {:.2g}; the given error {:.3g})\n", title, p.reference_size,
-                   p.reference_noise, p.error);
+        fmt::print("{}   (rms of the reference {:.4g}, its noise {:.2g}; the given error {:.3g})\n", data.picture_title(q),
+                   p.reference_size, p.reference_noise, p.error);
         fmt::print("{:>3} {:<30} {:>9} {:>8} {:>13} {:>10} {:>8} {:>14} {:>14}\n", "", "method", "RMSE", "relMSE", "seconds",
                    "1/(V T)", "s to it", "slope", "bias²/MSE");
         for (const StudiedMethod& m : p.methods) print_method(data, m);

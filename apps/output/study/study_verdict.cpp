@@ -35,7 +35,8 @@ std::string faster_text(const StudyData& data, const SpeedRatio& other) {
 }  // namespace
 
 std::string StudyData::picture_title(std::size_t picture) const {
-    return picture + 1 == pictures() ? fmt::format("the sum of bounces 0 to {}", bounces) : "bounce " + picture_name(picture);
+    if (picture > sum()) return fmt::format("bounces {} to {} together", of_verdict().first, of_verdict().last);
+    return picture == sum() ? fmt::format("the sum of bounces 0 to {}", bounces) : "bounce " + picture_name(picture);
 }
 
 std::string verdict_text(const StudyData& data, std::size_t picture, const StudyVerdict& verdict) {

@@ -203,7 +203,7 @@ class Scene(OnFunctions, OnPatches):
         samples: Optional[Sequence[int]] = None,
         repeats: Optional[int] = None,
         interval: Optional[float] = None,
-        bounces: Optional[int] = None,
+        bounces: Optional[Union[int, str]] = None,
         error: Optional[float] = None,
         crop: Optional[Sequence[int]] = None,
         reference: Optional[Path] = None,
@@ -221,9 +221,9 @@ class Scene(OnFunctions, OnPatches):
         numpy.random.Generator, which returns samples of K^i Le along each ray, (n, N + 1, 3) in W·m⁻²·sr⁻¹. It may call ``seen()``,
         ``intersect()``, ``visible()`` and ``sample_lights()``, and must not start other work of this package. budgets: seconds of a
         run; or samples: samples a pixel of a run; both growing. repeats: runs of each method at each budget, default 16; or
-        interval: as many as make the 95% interval of the sum's RMSE at most ± this part of it. bounces: the last that is compared.
-        error: the relative RMSE to which the time is given. crop: x, y, width and height of a part that the page shows for every
-        method. reference: the folder of a render, "values:1,0.5,…", or a method that makes one, with reference_spp samples a pixel.
+        interval: as many as make the 95% interval of the sum's RMSE at most ± this part of it. bounces: the last that is compared, or
+        "1-4", on which the verdict then is. error: the relative RMSE to which the time is given. crop: x, y, width and height of a
+        part that the page shows for every method. reference: the folder of a render, "values:1,0.5,…", or a method that makes one, with reference_spp samples a pixel.
         output: the folder for tables and page; by default nothing is kept."""
         own = {name_of(method): from_rays(method) for method in methods or () if callable(method)}
         if methods is not None:

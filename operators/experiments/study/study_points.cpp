@@ -8,6 +8,11 @@ namespace neumann {
 
 std::uint64_t StudyRun::all_rays() const { return std::accumulate(rays.begin(), rays.end(), std::uint64_t{0}); }
 
+double StudyRun::mean_of(const BounceRange& bounces) const {
+    const auto first = mean.begin() + static_cast<std::ptrdiff_t>(bounces.first);
+    return std::accumulate(first, first + static_cast<std::ptrdiff_t>(bounces.size()), 0.0) / static_cast<double>(bounces.size());
+}
+
 StudyRun study_run(const BounceSeries& series, const Method& requested) {
     const SeriesReport& report = series.report;
     StudyRun run;
@@ -62,7 +67,7 @@ double StudyPoint::largest_memory() const {
 }
 
 std::optional<double> StudyPoint::mean_discretisation(std::size_t picture) const {
-    if (runs.front().discretisation.empty()) return std::nullopt;
+    if (picture >= runs.front().discretisation.size()) return std::nullopt;
     double sum = 0.0;
     for (const StudyRun& run : runs)
         if (!run.discretisation.empty()) sum += run.discretisation[picture];
@@ -71,8 +76,8 @@ std::optional<double> StudyPoint::mean_discretisation(std::size_t picture) const
 
 bool StudyPoint::infinite_variance(std::size_t picture) const {
     const std::size_t bounces = runs.front().variance.size();
-    if (picture == bounces) {
-        for (std::size_t i = 0; i < bounces; ++i)
+    if (picture >= bounces) {
+        for (std::size_t i = picture == bounces ? 0 : together.first; i < bounces; ++i)
             if (infinite_variance(i)) return true;
         return false;
     }
@@ -86,11 +91,13 @@ bool StudyPoint::infinite_variance(std::size_t picture) const {
 
 std::vector<StudyPoint> study_points(const std::vector<StudyRun>& runs, const StudyPlan& plan,
                                      const std::vector<Estimate>& reference,
-                                     const std::function<Image(std::size_t n, std::size_t q)>& picture) {
+                                     const std::function<Image(std::size_t n, std::size_t q)>& picture,
+                                     const BounceRange& bounces) {
     std::vector<StudyPoint> points;
     for (std::size_t budget = 0; budget < plan.budgets.size(); ++budget)
         for (std::size_t method = 0; method < plan.efforts.size(); ++method) {
             StudyPoint point;
+            point.together = bounces;
             std::vector<std::size_t> numbers;
             for (std::size_t n = 0; n < runs.size(); ++n) {
                 if (runs[n].method != method || runs[n].budget != budget) continue;
@@ -102,6 +109,12 @@ std::vector<StudyPoint> study_points(const std::vector<StudyRun>& runs, const St
                 PictureErrors errors(reference[q]);
                 for (const std::size_t n : numbers) errors.add(picture(n, q));
                 point.errors.push_back(errors.statistics());
+            }
+            if (point.errors.size() > point.runs.front().variance.size() + 1) {
+                // Bounces share the reference's walks: their errors are treated as fully correlated.
+                double error = 0.0;
+                for (std::size_t i = bounces.first; i <= bounces.last; ++i) error += point.errors[i].reference_error;
+                point.errors.back().reference_error = error / static_cast<double>(bounces.size());
             }
             points.push_back(std::move(point));
         }

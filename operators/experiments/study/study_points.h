@@ -2,6 +2,7 @@
 // the methods in order of rank.
 #pragma once
 
+#include "operators/experiments/study/bounces_together.h"
 #include "operators/experiments/study/method_summary.h"
 #include "operators/experiments/study/study_plan.h"
 
@@ -23,6 +24,7 @@ struct StudyRun {
     std::vector<std::string> warnings;
 
     std::uint64_t all_rays() const;
+    double mean_of(const BounceRange& bounces) const;  // over their pictures
 };
 
 // Describes a render of `requested`, the method with its effort; its place in the study and its memory are not set.
@@ -37,24 +39,26 @@ StudyPlace place_of_run(std::size_t n, const StudyPlan& plan);
 
 struct StudyPoint {
     std::vector<StudyRun> runs;
-    std::vector<ErrorStatistics> errors;  // of each bounce, and of their sum
+    std::vector<ErrorStatistics> errors;  // of each bounce, of their sum, and of some together if the reference has these
+    BounceRange together = {};
 
     std::size_t method() const { return runs.front().method; }
     std::size_t budget() const { return runs.front().budget; }
     RepeatCosts costs() const;
-    // The mean over the runs; the last picture is the sum.
+    // The mean over the runs; pictures that are no bounce have all rays, and no discretisation if they are no sum.
     double mean_rays(std::size_t picture) const;
     double largest_memory() const;
     std::optional<double> mean_discretisation(std::size_t picture) const;
-    // Whether the variance is infinite by more than half of the runs that can tell; for the sum: of any bounce.
+    // Whether the variance is infinite by more than half of the runs that can tell; for several bounces: of any.
     bool infinite_variance(std::size_t picture) const;
 };
 
 // The points of all methods and budgets with at least two repeats. `picture(n, q)` reads picture q of the n-th run; `reference` has
-// as many pictures.
+// as many pictures: the bounces, their sum, and, if it has one more, `bounces` together.
 std::vector<StudyPoint> study_points(const std::vector<StudyRun>& runs, const StudyPlan& plan,
                                      const std::vector<Estimate>& reference,
-                                     const std::function<Image(std::size_t n, std::size_t q)>& picture);
+                                     const std::function<Image(std::size_t n, std::size_t q)>& picture,
+                                     const BounceRange& bounces = {});
 
 std::vector<const StudyPoint*> points_of_method(const std::vector<StudyPoint>& points, std::size_t method);
 
