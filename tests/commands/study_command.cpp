@@ -18,7 +18,7 @@ TEST_F(StudyCommand, Files) {
     const Finished done = study("a", small);
     EXPECT_EQ(done.out, "");
     EXPECT_EQ(done.err, "");
-    EXPECT_EQ(names("a"), (Names{"study.csv", "study.json", "index.html"}));
+    EXPECT_EQ(names("a"), (Names{"study.csv", "study.json", "index.html", "figure-error.svg", "figure-error.pdf", "verdict.tex"}));
     const Table table(path("a/study.csv"));
     EXPECT_EQ(table.columns(),
               (Strings{"method", "budget", "repeat", "bounce", "samples", "patches", "directions", "seed", "setup_seconds",

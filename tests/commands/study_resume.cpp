@@ -47,7 +47,7 @@ TEST_F(StudyResume, AfterAKillAndASignal) {
     if (std::filesystem::exists(path("a/study.journal"))) {
         EXPECT_EQ(run(joined(arguments, {"--resume"})).exit_code, 0);
     }
-    EXPECT_EQ(names("a"), (Names{"study.csv", "study.json", "index.html"}));
+    EXPECT_EQ(names("a"), (Names{"study.csv", "study.json", "index.html", "figure-error.svg", "figure-error.pdf", "verdict.tex"}));
     EXPECT_EQ(study_json("a").at("complete"), true);
     study("whole", options);
     EXPECT_EQ(figures("a"), figures("whole"));
@@ -88,7 +88,7 @@ TEST_F(StudyResume, InItsReference) {
         EXPECT_EQ(text_of(path("a/study.journal")).find("\"run\""), std::string::npos);
     }
     EXPECT_EQ(run(joined(arguments, {"--resume"})).exit_code, 0);
-    EXPECT_EQ(names("a"), (Names{"study.csv", "study.json", "index.html"}));
+    EXPECT_EQ(names("a"), (Names{"study.csv", "study.json", "index.html", "figure-error.svg", "figure-error.pdf", "verdict.tex"}));
     EXPECT_EQ(figures("a"), figures("whole"));
 }
 
@@ -116,7 +116,7 @@ TEST_F(StudyResumeSlow, AfterTwentyDeaths) {
     EXPECT_GT(deaths, 5);
     EXPECT_GT(within_runs, most / 7);
     if (begun()) run(joined(arguments, {"--resume"}));
-    EXPECT_EQ(names("a"), (Names{"study.csv", "study.json", "index.html"}));
+    EXPECT_EQ(names("a"), (Names{"study.csv", "study.json", "index.html", "figure-error.svg", "figure-error.pdf", "verdict.tex"}));
     EXPECT_EQ(figures("a"), figures("whole"));
 }
 
