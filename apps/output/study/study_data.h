@@ -35,7 +35,7 @@ struct StudyData {
     std::size_t sum() const { return static_cast<std::size_t>(bounces) + 1; }
     std::size_t pictures_of_run() const { return sum() + 1; }
     std::size_t pictures() const { return pictures_of_run() + (first_bounce ? 1 : 0); }  // the verdict is on the last
-    BounceRange of_verdict() const { return {static_cast<std::size_t>(first_bounce.value_or(0)), sum() - 1}; }
+    StackedBounces of_verdict() const { return {static_cast<std::size_t>(first_bounce.value_or(0)), sum() - 1}; }
     std::size_t runs() const { return request.repeats * plan.budgets.size() * methods.size(); }  // in all
     std::string picture_name(std::size_t picture) const;                                         // "0" … "sum", "1-4"
     std::string picture_title(std::size_t picture) const;  // "bounce 0" … "the sum of bounces 0 to 4", "bounces 1 to 4 together"

@@ -2,6 +2,7 @@
 #include "apps/output/figures/latex_table.h"
 #include "apps/output/files/series_figures.h"
 #include "apps/output/study/study_data.h"
+#include "operators/statistics/student_t.h"
 
 #include <fmt/format.h>
 
@@ -11,10 +12,11 @@ namespace {
 
 Plot error_against_time(const StudyData& data, const StudiedPicture& picture) {
     Plot plot{"seconds of a run, with set-up", "RMSE / W m⁻² sr⁻¹", false, {}};
+    const auto repeats = static_cast<double>(data.fewest_repeats());
     for (const StudiedMethod& method : picture.methods) {
         PlotCurve& curve = plot.curves.emplace_back(PlotCurve{data.methods[method.method].name, {}});
         for (const PointSummary& p : method.summary.points) {
-            const double half = 1.96 * p.rmse.standard_error;
+            const double half = student_t_quantile(0.95, repeats - 1.0) * p.rmse.standard_error;
             curve.points.push_back({p.seconds.value, p.rmse.value, p.rmse.value - half, p.rmse.value + half});
         }
     }
@@ -40,7 +42,7 @@ std::string verdict_table(const StudyData& data, const StudiedPicture& picture) 
     }
     return latex_table("lrrrr", {"method", "RMSE", "seconds", "slope", "time to the same error"}, rows,
                        fmt::format("{}, {} repeats. RMSE, seconds and slope with standard errors in units of the last digit; "
-                                   "time with an interval; all of these hold together at 95%",
+                                   "time with intervals that hold together at 95%",
                                    data.picture_title(data.pictures() - 1), data.request.repeats));
 }
 

@@ -9,7 +9,7 @@ Image stacked(const std::vector<Image>& pictures) {
     return all;
 }
 
-Estimate together(const std::vector<Estimate>& reference, const BounceRange& bounces) {
+Estimate together(const std::vector<Estimate>& reference, const StackedBounces& bounces) {
     Estimate all = reference[bounces.first];
     std::vector<Image> means, errors;
     for (std::size_t i = bounces.first; i <= bounces.last; ++i) {

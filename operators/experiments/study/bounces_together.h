@@ -11,7 +11,7 @@
 
 namespace neumann {
 
-struct BounceRange {
+struct StackedBounces {
     std::size_t first = 0, last = 0;
     std::size_t size() const { return last - first + 1; }
 };
@@ -19,6 +19,6 @@ struct BounceRange {
 // Pictures of one size; one at least.
 Image stacked(const std::vector<Image>& pictures);
 // The bounces among the pictures of a reference, which are all exact, or all with errors.
-Estimate together(const std::vector<Estimate>& reference, const BounceRange& bounces);
+Estimate together(const std::vector<Estimate>& reference, const StackedBounces& bounces);
 
 }  // namespace neumann

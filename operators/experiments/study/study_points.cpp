@@ -8,7 +8,7 @@ namespace neumann {
 
 std::uint64_t StudyRun::all_rays() const { return std::accumulate(rays.begin(), rays.end(), std::uint64_t{0}); }
 
-double StudyRun::mean_of(const BounceRange& bounces) const {
+double StudyRun::mean_of(const StackedBounces& bounces) const {
     const auto first = mean.begin() + static_cast<std::ptrdiff_t>(bounces.first);
     return std::accumulate(first, first + static_cast<std::ptrdiff_t>(bounces.size()), 0.0) / static_cast<double>(bounces.size());
 }
@@ -92,7 +92,7 @@ bool StudyPoint::infinite_variance(std::size_t picture) const {
 std::vector<StudyPoint> study_points(const std::vector<StudyRun>& runs, const StudyPlan& plan,
                                      const std::vector<Estimate>& reference,
                                      const std::function<Image(std::size_t n, std::size_t q)>& picture,
-                                     const BounceRange& bounces) {
+                                     const StackedBounces& bounces) {
     std::vector<StudyPoint> points;
     for (std::size_t budget = 0; budget < plan.budgets.size(); ++budget)
         for (std::size_t method = 0; method < plan.efforts.size(); ++method) {

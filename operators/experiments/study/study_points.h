@@ -24,7 +24,7 @@ struct StudyRun {
     std::vector<std::string> warnings;
 
     std::uint64_t all_rays() const;
-    double mean_of(const BounceRange& bounces) const;  // over their pictures
+    double mean_of(const StackedBounces& bounces) const;  // over their pictures
 };
 
 // Describes a render of `requested`, the method with its effort; its place in the study and its memory are not set.
@@ -40,7 +40,7 @@ StudyPlace place_of_run(std::size_t n, const StudyPlan& plan);
 struct StudyPoint {
     std::vector<StudyRun> runs;
     std::vector<ErrorStatistics> errors;  // of each bounce, of their sum, and of some together if the reference has these
-    BounceRange together = {};
+    StackedBounces together = {};
 
     std::size_t method() const { return runs.front().method; }
     std::size_t budget() const { return runs.front().budget; }
@@ -58,7 +58,7 @@ struct StudyPoint {
 std::vector<StudyPoint> study_points(const std::vector<StudyRun>& runs, const StudyPlan& plan,
                                      const std::vector<Estimate>& reference,
                                      const std::function<Image(std::size_t n, std::size_t q)>& picture,
-                                     const BounceRange& bounces = {});
+                                     const StackedBounces& bounces = {});
 
 std::vector<const StudyPoint*> points_of_method(const std::vector<StudyPoint>& points, std::size_t method);
 
