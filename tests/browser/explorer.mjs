@@ -78,7 +78,10 @@ const expectReadout = async (x, y, i, sum) => {
 };
 
 // What the page is, in three sentences; what few read is folded away, and nothing is said again and again.
-assert.match(await text("about"), /L = Le \+ K L,.*Kⁱ Le, bounce i, is light that was reflected i times on its way.*sum.*rest.*explorer\.md/s);
+assert.match(await text("about"), /L = Le \+ K L,.*Kⁱ Le, bounce i, is light that was reflected i times on its way.*sum.*rest/s);
+await page.getByLabel("All keys").click();
+assert.ok(await page.locator("#help").isVisible());
+await page.keyboard.press("Escape");
 const folds = async p => Object.fromEntries(await p.locator("details").evaluateAll(all => all.map(d => [d.firstChild.textContent.split(":")[0], { open: d.open, head: d.firstChild.textContent, text: d.textContent }])));
 {
   const found = await folds(page), { plan, health } = json, leftOut = plan.filter(p => !p.kept);
@@ -88,6 +91,11 @@ const folds = async p => Object.fromEntries(await p.locator("details").evaluateA
   for (const { saves } of leftOut) assert.equal(found["The plan"].text.split(saves).length - 1, saves.startsWith("nothing") ? 1 : leftOut.filter(p => p.saves === saves).length, saves);
   assert.deepEqual(health.complaints, []);
   assert.equal(found.Health.head, "Health: nothing wrong was found");
+  // Health is told in words, with the figures of run.json.
+  const { rays, paths } = health.self_hits, spaced = n => String(n).replace(/\B(?=(\d{3})+$)/g, "\u202f");
+  for (const words of ["All samples are finite numbers.", `Of ${spaced(rays)} rays of ${spaced(paths)} paths none hit the surface that they leave`, "is absorbed, leaves the scene or goes on"])
+    assert.ok(found.Health.text.includes(words), `${words} in ${found.Health.text}`);
+  for (const key of ["non finite samples", "self hits", "share of pixel", "part of rays at most 95", "confidence of all bounces"]) assert.ok(!found.Health.text.includes(key), key);
 }
 
 // It begins with direct light; the slider goes through the bounces and ends with the rest.
@@ -158,7 +166,23 @@ assert.match(await text("stops-text"), /^\+2 stops/);
 await expectColour("#a", 1, false, 4 * exposure);
 await press("[", "[", "[", "[");
 
-// The strip has every bounce and the rest, or every sum, as bright as the large picture; a click chooses.
+// The strip has every bounce and the rest, or every sum, as bright as the large picture, or a power of two brighter where the brightest
+// hundredth of what is lit has less than an eighth of white, which is said; a click chooses.
+const brightest = (i, sum) => {
+  const exr = pixels[fileOf(i, sum)], light = exr.R.map((r, p) => .2126 * r + .7152 * exr.G[p] + .0722 * exr.B[p]).filter(v => v > 0).sort((a, b) => a - b);
+  return light[Math.floor(.99 * (light.length - 1))];
+};
+const timesOf = (i, sum) => {
+  const times = 2 ** Math.floor(Math.log2(1 / (brightest(i, sum) * exposure)));
+  return times >= 8 ? times : 1;
+};
+const expectTile = async (i, sum) => {
+  const times = timesOf(i, sum), told = page.locator(`#strip button:nth-child(${i + 1})`);
+  assert.equal(await told.locator(".times").textContent(), times > 1 ? `×${times}` : "", `what is said of tile ${i}`);
+  assert.equal((await told.getAttribute("aria-label")).includes(`, ${times} times as bright`), times > 1);
+  await expectColour(tile(i), i, sum, exposure * times);
+  return times;
+};
 const tiles = page.locator("#strip button");
 const tile = i => `#strip button:nth-child(${i + 1}) canvas`;
 const drawn = async p => {
@@ -166,18 +190,20 @@ const drawn = async p => {
   await p.waitForFunction(() => !strip.asked);
 };
 await drawn(page);
-assert.deepEqual(await tiles.allInnerTexts(), ["0", "1", "2", "3", "4", "rest"]);
-for (let i = 0; i <= last + 1; ++i) await expectColour(tile(i), i, false, exposure);
+const tileNames = () => tiles.evaluateAll(all => all.map(t => t.lastChild.textContent));
+assert.deepEqual(await tileNames(), ["0", "1", "2", "3", "4", "rest"]);
+const brightened = [];
+for (let i = 0; i <= last + 1; ++i) brightened.push(await expectTile(i, false));
+assert.ok(brightened[1] === 1 && brightened[4] >= 8, String(brightened));
 await press("s");
 await drawn(page);
-assert.deepEqual(await tiles.allInnerTexts(), ["0", "0–1", "0–2", "0–3", "0–4"]);
-for (let i = 0; i <= last; ++i) await expectColour(tile(i), i, true, exposure);
+assert.deepEqual(await tileNames(), ["0", "0–1", "0–2", "0–3", "0–4"]);
+for (let i = 0; i <= last; ++i) await expectTile(i, true);
 await press("s", "f");
 await drawn(page);
 // Each as bright as it takes: its brightest hundredth is white.
 for (let i = 1; i <= last + 1; ++i) {
-  const exr = pixels[fileOf(i, false)], light = exr.R.map((r, p) => .2126 * r + .7152 * exr.G[p] + .0722 * exr.B[p]).filter(v => v > 0).sort((a, b) => a - b);
-  await expectColour(tile(i), i, false, 1 / light[Math.floor(.99 * (light.length - 1))]);
+  await expectColour(tile(i), i, false, 1 / brightest(i, false));
 }
 await press("f");
 await tiles.nth(3).click();
@@ -187,7 +213,40 @@ await expectColour("#a", 3, false, exposure);
 assert.deepEqual(await tiles.evaluateAll(all => all.map(t => t.ariaCurrent)), ["false", "false", "false", "true", "false", "false"]);
 // An arrow key goes on from there, and the focus with it.
 await press("ArrowRight");
-assert.match(await page.evaluate(() => document.activeElement.getAttribute("aria-label")), /^bounce 4$/);
+assert.match(await page.evaluate(() => document.activeElement.getAttribute("aria-label")), /^bounce 4\b/);
+// The large picture keeps the exposure of all, and says what brightens it.
+assert.ok(await page.locator("#dark").isVisible());
+await expectColour("#a", 4, false, exposure);
+await tiles.nth(1).click();
+await settled(page);
+
+// A click on a plot goes to the bounce at that place, or to the picture of the curve under the pointer. The bound, which is far above, does
+// not squeeze the others, and the chosen bounce's curve is in front of the others.
+const clickPlot = async (chart, at) => {
+  const { x, y } = await page.evaluate(([chart, at]) => {
+    const c = { energyPlot, errorPlot }[chart], box = c.canvas.getBoundingClientRect(), { scales } = c;
+    c.canvas.scrollIntoView({ block: "center" });
+    const p = at.label ? c.data.datasets.flatMap(d => d.data).find(p => p.label === at.label) : at, now = c.canvas.getBoundingClientRect();
+    return { x: now.x + scales.x.getPixelForValue(p.x), y: now.y + (p.y ? scales.y.getPixelForValue(p.y) : (c.chartArea.top + c.chartArea.bottom) / 2) };
+  }, [chart, at]);
+  await page.mouse.click(x, y);
+  await settled(page);
+};
+await clickPlot("energyPlot", { x: 3, y: json.bounces[3].mean });
+assert.match(await text("name"), /^bounce 3: K³ Le$/);
+await clickPlot("energyPlot", { x: 5 });
+assert.match(await text("name"), /^rest, /);
+await clickPlot("errorPlot", { label: "bounce 2" });
+assert.match(await text("name"), /^bounce 2: /);
+const drawnFirst = await page.evaluate(() => errorPlot.getSortedVisibleDatasetMetas().map(m => m.label).reverse());
+assert.ok(drawnFirst.lastIndexOf("") < drawnFirst.indexOf("bounce 2") && drawnFirst[0] === "", JSON.stringify(drawnFirst));
+{
+  const { high, low, top, bottom, bound } = await page.evaluate(ends => ({ low: energyPlot.scales.y.getPixelForValue(ends[0]), high: energyPlot.scales.y.getPixelForValue(ends[1]), ...energyPlot.chartArea,
+    bound: energyPlot.data.datasets.at(-1).label }), [json.bounces[last].mean, json.bounces[0].mean]);
+  assert.ok(low - high > .5 * (bottom - top), `means from ${high} to ${low} in a plot from ${top} to ${bottom}`);
+  assert.match(bound, /^bound on all that follows: \S+ to \S+, above the plot$/);
+}
+await page.evaluate(() => scrollTo(0, 0));
 await tiles.nth(1).click();
 await settled(page);
 
@@ -287,6 +346,7 @@ const expectRect = async ([x0, x1, y0, y1], i, sum) => {
   });
 };
 await press("Escape", "Home", "ArrowRight", "ArrowRight");
+const sizeBefore = await page.locator("#stage").boundingBox();
 await page.keyboard.down("Shift");
 await page.mouse.move(...await shownAt(20, 25));
 await page.mouse.down();
@@ -296,6 +356,7 @@ await page.keyboard.up("Shift");
 await page.mouse.move(0, 0);
 await settled(page);
 await expectRect([15, 20, 18, 25], 2, false);
+assert.deepEqual(await page.locator("#stage").boundingBox(), sizeBefore);  // the picture does not move under the pointer
 const [rect, corner] = [await page.locator("#rect").boundingBox(), await shownAt(15, 18)];
 assert.ok(corner[0] > rect.x && corner[0] < rect.x + rect.width / 6 && corner[1] > rect.y && corner[1] < rect.y + rect.height / 8, JSON.stringify([rect, corner]));
 await press("s");
@@ -315,6 +376,31 @@ await settled(page);
 await expectRect([3, 5, 4, 4], 2, false);
 assert.equal(await page.locator("#picking").getAttribute("aria-pressed"), "false");
 await press("Escape");
+
+// The wheel zooms the picture about the pointer, and beside it scrolls the page, as over the whole picture when it cannot zoom out.
+{
+  const [mx, my] = await shownAt(9, 20), turn = async (x, y, by) => { await page.mouse.move(x, y); await page.mouse.wheel(0, by); };
+  const beside = await page.locator(".controls").boundingBox(), scrolled = () => page.evaluate(() => scrollY), pause = () => page.waitForTimeout(400);
+  await page.evaluate(() => document.activeElement.blur());
+  await turn(mx, my, -300);
+  await page.waitForFunction(() => state.zoom > 1.7 && state.zoom < 1.95);  // e^.6
+  assert.deepEqual([await page.evaluate(([x, y]) => pixelAt({ clientX: x, clientY: y }), [mx, my]), await scrolled()], [{ x: 9, y: 20 }, 0]);
+  await turn(mx, my, 900);
+  await page.waitForFunction(() => state.zoom === 1);
+  assert.equal(await scrolled(), 0);
+  await pause();
+  await turn(mx, my, 100);
+  await page.waitForFunction(() => scrollY > 0);
+  await pause();
+  await page.evaluate(() => scrollTo(0, 0));
+  await pause();
+  await turn(beside.x + 5, beside.y + 5, 100);
+  await page.waitForFunction(() => scrollY > 0);
+  assert.equal(await page.evaluate(() => state.zoom), 1);
+  await page.evaluate(() => scrollTo(0, 0));
+  await page.mouse.move(0, 0);
+  await settled(page);
+}
 
 // The histogram counts the pixels of what is shown; its handles set white and the low end of the colours.
 const lightOf = name => pixels[name].R.map((r, p) => .2126 * r + .7152 * pixels[name].G[p] + .0722 * pixels[name].B[p]);
@@ -577,6 +663,16 @@ const cells = await page.evaluate(() => [...generic([{ part: "mirrors", kept: fa
   .querySelectorAll("tr")].map(row => [...row.cells].map(c => c.textContent)));
 assert.deepEqual(cells, [["part", "kept", "light", "count"], ["mirrors", "no", "0.5 ± 0.2", ""], ["glass", "yes", "", "12\u202f345"]]);
 
+// Picture and what is beside it end at about the same height, with the plots below: at most 250 pixels of the window stay empty.
+const expectNoEmptyColumn = async p => {
+  const { picture, beside, plots } = await p.evaluate(() => Object.fromEntries([["picture", ".viewer"], ["beside", ".beside"], ["plots", ".plots"]].map(([name, of]) => {
+    const { top, bottom, left, right } = document.querySelector(of).getBoundingClientRect();
+    return [name, { top, bottom, left, right }];
+  })));
+  assert.ok(Math.abs(picture.bottom - beside.bottom) < 250, JSON.stringify([picture, beside]));
+  assert.ok(plots.top >= Math.max(picture.bottom, beside.bottom) - 1 && plots.left <= picture.left && plots.right >= beside.right, JSON.stringify([picture, beside, plots]));
+};
+
 // Many bounces: picture, strip and what steers them are in sight at once; the strip scrolls by itself, and what is shown stays in sight.
 neumann("render", scene, "-D", "res=256", "-n", "17", "--spp", "4", "--method", "walk", "-o", at("many"), "--quiet");
 const many = await browser.open(at("many/index.html"), { width: 1366, height: 768 });
@@ -589,6 +685,25 @@ for (const id of ["stage", "strip", "bounce", "play", "readout", "term", "sum", 
 }
 assert.ok((await many.locator("#stage").boundingBox()).height > 345);
 await expectNoSidewaysScroll(many);
+await expectNoEmptyColumn(many);
+await many.setViewportSize({ width: 1920, height: 1080 });
+await settled(many);
+await expectNoEmptyColumn(many);
+// On paper nothing is wider than the page, plots have its width, no plot is cut and no heading stands alone.
+await many.emulateMedia({ media: "print" });
+await many.evaluate(() => dispatchEvent(new Event("beforeprint")));
+await many.setViewportSize({ width: 680, height: 960 });
+await settled(many);
+await expectNoSidewaysScroll(many);
+assert.deepEqual(await many.evaluate(() => [...new Set([...document.querySelectorAll(".plot")].map(e => getComputedStyle(e).breakInside).concat([...document.querySelectorAll("h2")].map(e => getComputedStyle(e).breakAfter)))]), ["avoid"]);
+for (const id of ["stage", "energy", "error"]) {
+  const { x, width } = await many.locator(`#${id}`).boundingBox();
+  assert.ok(x >= 0 && x + width <= 680 && width > 600, `${id} from ${x}, ${width} wide`);
+}
+await many.evaluate(() => dispatchEvent(new Event("afterprint")));
+await many.emulateMedia({ media: "screen" });
+await many.setViewportSize({ width: 1366, height: 768 });
+await settled(many);
 const inStrip = i => many.evaluate(i => {
   const box = document.getElementById("strip").getBoundingClientRect(), tile = document.querySelectorAll("#strip button")[i].getBoundingClientRect();
   return tile.left >= box.left && tile.right <= box.right;

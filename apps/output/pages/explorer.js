@@ -24,16 +24,17 @@ const drawPlots = () => {
   draw(errorPlot, [...errors, ...slopeGuide(errors)]);
   $("pixel-title").textContent = state.pixel ? `Pixel ${onFilm(state.pixel).join(", ")}: ${state.sum ? "sums" : "bounces"}` : "The chosen pixel";
   $("pixel-part").hidden = !state.pixel;
+  $("pixel-note").classList.toggle("none", !state.pixel);
   $("pixel-note").textContent = state.pixel ? "With 95% intervals; zero and negative values have no place on a logarithmic axis." : "Click a pixel, or choose one with the arrow keys in the picture.";
 };
 const drawNotes = () => {
-  $("energy-note").textContent = "Mean over pixels and channels, with 95% intervals. " +
-    (first.decay && all.length === 1 ? "The fit is to the later half of the bounces. " : "") +
+  $("energy-note").textContent = "Mean over pixels and channels, with 95% intervals; a click goes to the bounce. " +
+    (first.decay && all.length === 1 ? "The fit is to the later half. " : "") +
     (first.importance || all.length > 1 ? "" : first.run.bounces.some(b => b.tail_bound > 0) ? "The bound is on the largest radiance anywhere in the scene, and follows from the largest albedo." : "There is no bound: the largest albedo is at least 1.");
   $("energy").setAttribute("aria-label", "Mean of each bounce on a logarithmic axis; the same figures are in the table of bounces below");
   $("pixel").setAttribute("aria-label", "The chosen pixel's bounces in red, green and blue on a logarithmic axis");
   $("error").setAttribute("aria-label", "Relative standard error of the bounces and the sum against seconds");
-  $("error-note").textContent = "Relative standard error √(Σ SE² / Σ mean²) of the bounce that is shown and of the sum; the other bounces in grey." +
+  $("error-note").textContent = "Relative standard error √(Σ SE² / Σ mean²) of the bounce that is shown and of the sum; the other bounces in grey: a click on a point shows its bounce." +
     (all.some(s => s.convergence.filter(row => Number.isFinite(row.relative_stderr_sum)).length === 1) ? " A curve with one point: errors at fewer samples were not measured." : "");
 };
 
@@ -234,11 +235,25 @@ stage.onpointerup = stage.onpointercancel = e => {
   else if (clicked) set({ pixel: pixelAt(e) });
 };
 stage.onpointerleave = () => { state.hover = null; drawReadout(); };
+// The wheel zooms the picture. Where the whole of it is seen already the page scrolls on, and a page that scrolls is not stopped by
+// a picture that comes under the pointer: a turn of the wheel ends with a pause.
+const wheel = { pause: 300, scrolled: -Infinity, zoomed: -Infinity };
+addEventListener("scroll", () => { wheel.scrolled = performance.now(); });
 stage.addEventListener("wheel", e => {
-  if (!e.ctrlKey && !stage.classList.contains("zoomed") && document.activeElement !== stage) return;  // so that the page scrolls
+  const now = performance.now();
+  if (!e.ctrlKey && (now - wheel.scrolled < wheel.pause || (e.deltaY > 0 && state.zoom === 1 && now - wheel.zoomed > wheel.pause))) return;  // the page scrolls
+  wheel.zoomed = now;
   const box = stage.getBoundingClientRect();
   zoomTo(state.zoom * Math.exp(-.002 * e.deltaY), e.clientX - box.left, e.clientY - box.top);
   e.preventDefault();
 }, { passive: false });
+// Paper has one column, of its own width.
+const forPaper = on => {
+  document.body.classList.toggle("printing", on);
+  placeSheet();
+  for (const chart of [energyPlot, pixelPlot, errorPlot, historyPlot, pixelErrorPlot]) chart.resize();
+};
+addEventListener("beforeprint", () => forPaper(true));
+addEventListener("afterprint", () => forPaper(false));
 addEventListener("resize", () => { placeSheet(); paintTiles(); });
 matchMedia("(prefers-color-scheme: dark)").onchange = () => { drawn = {}; redraw(); };

@@ -109,7 +109,7 @@ const pixelErrorSets = (history, s, i, sum) => {
     const v = history[kind][k][q];
     return { x: n, y: Math.hypot(...v.slice(3)) / Math.hypot(...v.slice(0, 3)) };
   }).filter(positive);
-  const sets = history.terms[0].map((_, q) => q).filter(q => sum || q !== i).map(q => line("", of("terms", q).map(p => ({ ...p, label: bounceName(q) })), color("faint")));
+  const sets = history.terms[0].map((_, q) => q).filter(q => sum || q !== i).map(q => line("", of("terms", q).map(p => ({ ...p, label: bounceName(q), shows: { i: q, sum: false } })), color("faint"), behind));
   if (!sum || i > s.last) sets.push(dots(bounceName(i), of("terms", i), style(0).color, "circle"));
   const upTo = sum ? i : s.last;
   sets.push(dots(`sum of bounces 0 to ${upTo}`, of("sums", upTo), color("text"), "rect"));

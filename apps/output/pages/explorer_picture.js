@@ -1,10 +1,10 @@
 "use strict";
 // The picture and its zoom.
 let image = null;  // what shownAs returned for picture A
-// Draws a picture. With `o`, draws its difference from picture `o`, where the view is one of differences.
-const paint = (canvas, s, ref, o) => {
+// Draws a picture, `times` as bright. With `o`, draws its difference from picture `o`, where the view is one of differences.
+const paint = (canvas, s, ref, o, times = 1) => {
   const view = comparing() && !o ? "colour" : state.view;
-  const shown = shownAs[view](s, ref, { exposure: exposure(s, ref), curve: state.curve, decades: state.decades, other: o });
+  const shown = shownAs[view](s, ref, { exposure: exposure(s, ref) * times, curve: state.curve, decades: state.decades, other: o });
   fill(canvas, s.width, s.height, shown.at);
   return shown;
 };
@@ -21,6 +21,7 @@ const drawPicture = () => {
   $("b").hidden = !state.wipe || comparing() || !!lack || !!lackOfB;
   if (!$("b").hidden) paint($("b"), o.series, o.ref);
   $("divider").hidden = $("b").hidden;
+  $("dark").hidden = !!lack || comparing() || brightening(s, ref) === 1;
   $("side-a").hidden = $("side-b").hidden = !two || !!lack || !!lackOfB;
   $("side-a").textContent = (all.length > 1 ? "" : "A: ") + runName(s) + s.title(ref);
   $("side-b").textContent = (all.length > 1 ? "" : "B: ") + runName(o.series) + o.series.title(o.ref);
@@ -50,19 +51,16 @@ const drawScale = () => {
 };
 
 // The height in CSS pixels that the layout reserves for the figures below the picture, however many there are, so that the picture
-// keeps its size. The height stays the same while a rectangle is drawn.
-let room = 0;
-const figuresRoom = () => {
-  if (!drag?.corner) room = state.slide ? 0 : state.rect ? 132 : 66;
-  return room;
-};
+// and what is beside it keep their size.
+const figuresRoom = 66;
 const placeSheet = () => {
   const stage = $("stage"), width = stage.clientWidth, s = series(), viewer = stage.parentElement;
   // Limits the height of the picture so that all of the viewer is in sight, but not below 45% of the window and 240 pixels.
-  const figures = $("readout").offsetHeight, taken = viewer.parentElement.offsetTop + viewer.offsetHeight - stage.offsetHeight - figures + figuresRoom();
+  const high = e => e.getBoundingClientRect().height, figures = high($("readout")), room = state.slide ? 0 : figuresRoom;
+  const around = high(viewer) - high(stage) - figures + room, taken = viewer.parentElement.offsetTop + around;
   const limit = Math.max(.45 * innerHeight, 240, innerHeight - taken), height = state.slide ? innerHeight - taken : Math.min(width * s.height / s.width, limit);
   stage.style.height = `${height}px`;
-  viewer.style.setProperty("--height", `${viewer.offsetHeight}px`);
+  viewer.parentElement.style.setProperty("--viewer", `${around + height}px`);
   const scale = Math.min(width / s.width, height / s.height);
   // Keeps the point in the middle of the stage there when the size of the stage changes.
   if (state.fitScale) {

@@ -25,13 +25,20 @@ const positive = p => p.y > 0 && Number.isFinite(p.y);
 const line = (label, all, colour, more = {}) => ({ label, all, data: all.filter(positive), showLine: true, borderColor: colour, backgroundColor: colour, borderWidth: 1.6, pointRadius: 0, pointHitRadius: 4, pointStyle: "line", ...more });
 const dots = (label, data, colour, mark, more = {}) => line(label, data, colour, { pointStyle: mark, pointRadius: 4, pointHoverRadius: 6, pointHitRadius: 8, ...more });
 
+// What a click on a plot chooses: what the point under it shows, or else the bounce at that place of an axis of bounces.
+const chosenBy = ({ x, y }, found, chart, onBounce) => {
+  const { left, right, top, bottom } = chart.chartArea, point = found.map(f => chart.data.datasets[f.datasetIndex].data[f.index]).find(p => p.shows);
+  if (point) return () => { stop(); set(point.shows); };
+  if (onBounce && x >= left && x <= right && y >= top && y <= bottom) return () => onBounce(chart.scales.x.getValueForPixel(x));
+};
 const plot = (id, xAxis, yTitle, plugins, onBounce) => new Chart($(id), {
   type: "scatter",
   data: { datasets: [] },
   options: {
     animation: false, maintainAspectRatio: false,
     scales: { x: xAxis, y: logAxis(yTitle) },
-    onClick: (event, found) => { if (onBounce && found.length) onBounce(found[0].element.$context.raw.x); },
+    onClick: (event, found, chart) => chosenBy(event, found, chart, onBounce)?.(),
+    onHover: (event, found, chart) => { chart.canvas.style.cursor = chosenBy(event, found, chart, onBounce) ? "pointer" : ""; },
     plugins: {
       legend: { position: "bottom", labels: { usePointStyle: true, boxWidth: 8, boxHeight: 8, color: () => color("text"), filter: item => item.text !== "" } },
       tooltip: { callbacks: { label: item => [item.dataset.label || item.raw.label,
@@ -48,8 +55,9 @@ const bounceAxis = (last, hasRest) => ({
   ticks: { autoSkip: true, maxRotation: 0, color: () => color("dim"), callback: v => hasRest && v === last + 1 ? "rest" : v }
 });
 const point = (x, y, half, bounce = x) => ({ x, y, half, bounce, ...(half > 0 && Number.isFinite(half) ? { low: y - half, high: y + half } : {}) });
+// The range of the values, without those of a set that may lie `beyond` the plot.
 const fitRange = (chart, sets) => {
-  const values = sets.flatMap(s => s.data).filter(positive).flatMap(p => [p.y, ...(p.high ? [p.high, Math.max(p.low, p.y / 3)] : [])]);
+  const values = sets.filter(s => !s.beyond).flatMap(s => s.data).filter(positive).flatMap(p => [p.y, ...(p.high ? [p.high, Math.max(p.low, p.y / 3)] : [])]);
   range(chart.options.scales.y, values);
 };
 
@@ -69,7 +77,9 @@ const energySets = (all, names, restAt) => all.flatMap((s, r) => {
     const follow = bounces.map(b => b.mean).reverse().map((mean, k) => { const y = after; after += mean; return { x: s.last - k, y }; }).reverse();
     sets.push(line("all that follows", follow, colors[2]));
   }
-  sets.push(line("bound on all that follows", bounces.map((b, i) => ({ x: i, y: b.tail_bound })), color("dim"), { borderDash: dashes[2] }));
+  const bound = bounces.map((b, i) => ({ x: i, y: b.tail_bound })).filter(positive), highest = Math.max(...sets.flatMap(set => set.data.map(p => p.y)));
+  const where = bound.length && bound.every(p => p.y > highest) ? `: ${number(bound[0].y)} to ${number(bound.at(-1).y)}, above the plot` : "";
+  sets.push(line("bound on all that follows" + where, bound, color("dim"), { borderDash: dashes[2], beyond: true }));
   return sets.filter(set => set.data.length > 0);
 });
 
@@ -83,17 +93,19 @@ const pixelSets = (all, names, p, sum, restAt) => all.flatMap((s, r) => ["red", 
   return dots(name + names[r], data, channelColours()[c], marks[c], r ? { borderDash: dashes[1], pointBackgroundColor: color("back") } : {});
 }));
 
+// Chart.js draws datasets of a higher order first. A curve that is not the chosen one lies behind, and can be clicked.
+const behind = { order: 1, pointHitRadius: 8 };
 const errorSets = (all, names, i) => all.flatMap((s, r) => {
   const rows = s.convergence, dash = r ? { borderDash: dashes[1] } : {};
   const of = key => rows.map(row => ({ x: row.seconds, y: row[key], note: `${row.samples} samples a pixel in ${number(row.seconds)} s` })).filter(p => p.x > 0 && positive(p));
   const key = k => String(k).padStart(3, "0");
   const sets = [];
   for (let k = 0; k <= s.last; ++k) if (k !== i) {
-    const points = of(`relative_stderr_${key(k)}`).map(p => ({ ...p, label: `bounce ${k}${names[r]}` }));
-    sets.push(points.length === 1 ? dots("", points, color("line"), "circle", { pointRadius: 2 }) : line("", points, color("faint"), dash));
+    const points = of(`relative_stderr_${key(k)}`).map(p => ({ ...p, label: `bounce ${k}${names[r]}`, shows: { run: r, i: k, sum: false } }));
+    sets.push(points.length === 1 ? dots("", points, color("line"), "circle", { pointRadius: 2, ...behind }) : line("", points, color("faint"), { ...dash, ...behind }));
   }
   if (i <= s.last) sets.push(dots(`bounce ${i}${names[r]}`, of(`relative_stderr_${key(i)}`), style(0).color, "circle", dash));
-  sets.push(dots("sum" + names[r], of("relative_stderr_sum"), color("text"), "rect", dash));
+  sets.push(dots("sum" + names[r], of("relative_stderr_sum").map(p => ({ ...p, shows: { run: r, i: s.last, sum: true } })), color("text"), "rect", dash));
   if (rows.length && "relative_error_sum" in rows[0]) {
     if (i <= s.last) sets.push(dots(`bounce ${i}, true error${names[r]}`, of(`relative_error_${key(i)}`), colors[1], "triangle", { borderDash: dashes[2] }));
     sets.push(dots("sum, true error" + names[r], of("relative_error_sum"), colors[3], "rectRot", { borderDash: dashes[2] }));

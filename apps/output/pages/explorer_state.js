@@ -52,19 +52,25 @@ const pairOf = (s, o) => s === o.series ? "A − B" : `${letter(s.index)} − ${
 const comparing = () => state.view === "difference" || state.view === "z";
 const runName = s => all.length > 1 ? `${letter(s.index)}: ` : "";
 
-// The exposure: that of the contact sheet or, if `fit`, one at which the brightest hundredth of the lit pixels is white; times
-// 2^stops.
-const fitted = new Map();
-const exposure = (s, ref) => {
-  let base = first.exposure;
-  if (state.fit) {
-    const key = `${s.index} ${ref.i} ${ref.sum}`;
-    if (!fitted.has(key)) {
-      const mean = s.mean(ref), n = s.pixels;
-      const lit = Float32Array.from({ length: n }, (_, p) => luminance(mean[p], mean[p + n], mean[p + 2 * n])).filter(v => v > 0).sort();
-      fitted.set(key, lit.length ? 1 / lit[Math.floor(.99 * (lit.length - 1))] : 1);
-    }
-    base = fitted.get(key);
+// The exposure at which the brightest hundredth of the lit pixels is white; 0 if none is lit. Of a large picture every few pixels are
+// looked at.
+const fitted = new Map(), mostLookedAt = 65536;
+const fittedExposure = (s, ref) => {
+  const key = `${s.index} ${ref.i} ${ref.sum}`;
+  if (!fitted.has(key)) {
+    const light = luminanceOf(s.mean(ref), s.pixels), stride = Math.ceil(s.pixels / mostLookedAt) | 1;
+    const lit = Float32Array.from({ length: Math.ceil(s.pixels / stride) }, (_, k) => light(k * stride)).filter(v => v > 0).sort();
+    fitted.set(key, lit.length ? 1 / lit[Math.floor(.99 * (lit.length - 1))] : 0);
   }
-  return base * 2 ** state.stops;
+  return fitted.get(key);
+};
+// The exposure: that of the contact sheet or, if `fit`, that of each picture; times 2^stops.
+const exposure = (s, ref) => (state.fit ? fittedExposure(s, ref) || 1 : first.exposure) * 2 ** state.stops;
+// How many times a picture is to be brightened that is dark at the common exposure: the largest power of two at which its brightest
+// hundredth is not beyond white. 1 from an eighth of white on, and wherever colours do not depend on the exposure as light does.
+const darkBelow = 1 / 8;
+const brightening = (s, ref) => {
+  if (state.fit || state.curve === "log" || !(state.view === "colour" || comparing())) return 1;
+  const times = 2 ** Math.floor(Math.log2(fittedExposure(s, ref) / (first.exposure * 2 ** Math.max(0, state.stops))));
+  return times * darkBelow >= 1 ? times : 1;
 };

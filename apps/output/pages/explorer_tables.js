@@ -77,6 +77,35 @@ const mixtureMaps = ({ blocks, methods }) => [element("p", "The weight of each m
     row.append(...m.weights_of_bounces.map((digits, bounce) => weightMap(digits, blocks, bounce)));
     return [element("p", `${m.method}, ${number(100 * m.part_of_work, 2)}% of the work`), row];
   })];
+// What health looked at, in words and tables; parts that are not known here as they are.
+const balanceParts = ([kind, { unit, paths, replicates, confidence_of_all_bounces, begun, left_the_scene_at_once, bounces }]) => {
+  const of = v => v ? flatText(v) : "";
+  return [element("p", `The balance of energy ${words(kind)}, in ${unit}, by ${paths ? `${whole(paths)} paths` : `${whole(replicates)} replicates`}: what arrives at a bounce is absorbed, leaves the scene or goes on. ` +
+      `${of(begun)} begins, ${of(left_the_scene_at_once)} leaves the scene at once. It is a complaint where chance makes such an imbalance in any bounce with a probability of at most ${number(1 - confidence_of_all_bounces, 1)}.`),
+    wide(table(["bounce", "arrives", "is absorbed", "leaves the scene", "goes on", "imbalance", ""],
+      bounces.map(b => [String(b.bounce), of(b.arrived), of(b.absorbed), of(b.left_the_scene), of(b.went_on), of(b.imbalance), b.sick ? "complaint" : ""]), [6]))];
+};
+const healthParts = ({ sick, samples = [], non_finite_samples: odd, largest_samples: largest, self_hits: hits, energy_balance: balance, ...others }) => {
+  const parts = [], sampleOf = number => samples.find(s => s.number === number), say = text => parts.push(element("p", text));
+  if (odd) {
+    const overflowed = odd.pixels_overflowed.reduce((a, b) => a + b, 0);
+    say((odd.count ? `${whole(odd.count)} samples are not finite numbers` : "All samples are finite numbers") + (overflowed ? `, and ${whole(overflowed)} means of pixels are not.` : "."));
+  }
+  if (largest?.length) {
+    say("The sample of each bounce with the largest share of its pixel; fireflies are those of its 1000 largest samples that make more than half of their pixel, and much of the picture's light.");
+    parts.push(wide(table(["bounce", "value", "of its pixel", "of its pixel's sum", "fireflies", "pixel", "sample", ""], largest.map(l => {
+      const s = sampleOf(l.number), percent = part => `${number(100 * part, 2)}%`;
+      return [String(l.bounce), number(l.value), percent(l.share_of_pixel), percent(l.share_of_pixel_in_sum), whole(l.fireflies), s?.pixel.join(", ") ?? "", s ? whole(s.sample) : "", l.try ? `try ${l.try.join(", ")}` : ""];
+    }), [7])));
+  }
+  const rest = samples.filter(s => !largest?.some(l => l.number === s.number));
+  if (rest.length) parts.push(generic(rest));
+  if (hits) say(`Of ${whole(hits.rays)} rays of ${whole(hits.paths)} paths ${hits.count ? whole(hits.count) : "none"} hit the surface that they leave: with 95% confidence at most ${number(100 * hits.part_of_rays_at_most_95, 2)}% of all rays do.`);
+  if (typeof balance === "string") say(`The balance of energy was not looked at: ${balance.replace(/^none: /, "")}.`);
+  else if (balance) parts.push(...Object.entries(balance).flatMap(balanceParts));
+  if (Object.keys(others).length) parts.push(generic(others));
+  return parts;
+};
 const drawTitle = () => {
   document.title = $("title").textContent = [...new Set(all.map(sceneOf))].join(" and ") + (all.length > 1 ? ": " + all.map((_, r) => letter(r)).join(", ").replace(/, (.)$/, " and $1") : "");
   $("subtitle").textContent = all.map(s => runName(s) + summary(s)).join("; ");
@@ -86,7 +115,10 @@ const drawAbout = () => {
   const [all, source, K, what, senders] = first.importance ? ["W", "We", "K*", "importance", "cameras"] : ["L", "Le", "K", "light", "lamps"];
   $("about").textContent = `${what[0].toUpperCase()}${what.slice(1)} is what ${senders} send out and what surfaces reflect of it, ${all} = ${source} + ${K} ${all}, and so ${all} = ${source} + ${K} ${source} + ${K}² ${source} + …: here each term is a picture. ` +
     `${K}ⁱ ${source}, bounce i, is ${what} that was reflected i times on its way; the sum up to it holds bounces 0 to i, and the rest all that come after the last one. ` +
-    "More is in the manual, apps/manual/explorer.md.";
+    "What can be done here: ";
+  const keys = button("all keys", "All keys", () => $("help").showModal());
+  keys.className = "link";
+  $("about").append(keys);
 };
 const drawWarnings = () => {
   const lenient = all.filter(s => s.run.scene.replaced);
@@ -126,7 +158,7 @@ const drawRun = s => {
   }
   if (run.health) {
     const { complaints = [], ...looked } = run.health;
-    parts.push(folded(`Health: ${complaints.length ? `${complaints.length} complaint${complaints.length > 1 ? "s" : ""}, listed at the top of the page` : "nothing wrong was found"}`, generic(looked)));
+    parts.push(folded(`Health: ${complaints.length ? `${complaints.length} complaint${complaints.length > 1 ? "s" : ""}, listed at the top of the page` : "nothing wrong was found"}`, ...healthParts(looked)));
   }
   for (const part of ["choice", "health", "bounces", "warnings", "ways"]) delete what[part];
   section(`The run${tag}`, ...parts, folded("All facts of run.json", generic(what)));

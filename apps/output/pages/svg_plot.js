@@ -29,7 +29,8 @@ const svgPlot = chart => {
   text(x.options.title.text, middleX, area.bottom + 38, 'text-anchor="middle"');
   text(y.options.title.text, 12, middleY, `text-anchor="middle" transform="rotate(-90 12 ${round(middleY)})"`);
   out.push(`<clipPath id="area"><rect x="${area.left}" y="${area.top}" width="${area.right - area.left}" height="${area.bottom - area.top}"/></clipPath><g clip-path="url(#area)">`);
-  for (const set of chart.data.datasets) {
+  const inOrder = [...chart.data.datasets].sort((a, b) => (b.order ?? 0) - (a.order ?? 0));
+  for (const set of inOrder) {
     const place = p => [x.getPixelForValue(p.x), y.getPixelForValue(p.y)].map(round);
     out.push(`<g class="series"><title>${escaped(set.label)}</title>`);
     if (set.showLine && set.data.length > 1) path("M" + set.data.map(p => place(p).join(" ")).join("L"), set.borderColor, `stroke-width="${set.borderWidth}" stroke-dasharray="${(set.borderDash ?? []).join(" ")}"`);
