@@ -26,8 +26,10 @@ void Preview::write(std::size_t bounces, const std::function<Image(std::size_t)>
     const double exposure = exposure_for(sums.back(), terms.front());
     const Strip strip = strip_of_terms({.terms = terms, .sums = sums, .kind = kind_ + ", smoothed"}, terms.front(), exposure);
     try {
-        folder_.show("preview.png", strip_png(strip, exposure, find_label_font()));
+        std::string png = strip_png(strip, exposure, find_label_font());
+        folder_.show("preview.png", png);
         is_there_ = true;
+        seen_(std::move(png));
     } catch (const RunError&) {
         // A full disk is reported when the pictures are written.
     }

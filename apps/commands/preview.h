@@ -14,8 +14,9 @@ namespace neumann {
 
 class Preview {
 public:
-    // Keeps a reference to the folder. `kind` is appended to labels, such as ", lenient".
-    Preview(OutputFolder& folder, std::string kind) : folder_(folder), kind_(std::move(kind)) {}
+    // Keeps a reference to the folder. `kind` is appended to labels, such as ", lenient"; `seen` gets the bytes of each, too.
+    Preview(OutputFolder& folder, std::string kind, std::function<void(std::string)> seen)
+        : folder_(folder), kind_(std::move(kind)), seen_(std::move(seen)) {}
 
     // A function for Watch::show. It skips calls that come too soon, to take little time, and ignores failures to write.
     void show(std::size_t bounces, const std::function<Image(std::size_t)>& term);
@@ -27,6 +28,7 @@ private:
 
     OutputFolder& folder_;
     std::string kind_;
+    std::function<void(std::string)> seen_;
     std::atomic<bool> is_there_ = false;
     SmallShare share_{50};
 };

@@ -157,6 +157,7 @@ int render_command(const RenderRequest& given) {
     std::optional<LivePage> live;
     if (request.live) {
         live.emplace(*request.live);
+        live->announce(std::filesystem::path(request.scene.path).filename().string());
         if (!request.quiet) fmt::print(stderr, "The page of this render, which fills meanwhile: {}\n", live->address());
         live->open();
     }
@@ -178,7 +179,9 @@ int render_command(const RenderRequest& given) {
     const double reading_seconds = clock.seconds();
     ProgressLine line(request.quiet);
     watch.crew = crew.get();
-    Preview preview(*folder, lenient_label(*scene));
+    Preview preview(*folder, lenient_label(*scene), [&](std::string png) {
+        if (live) live->preview(std::move(png));
+    });
     watch.progress = [&](const RenderProgress& so_far) {
         if (live) live->tell(so_far);
         line.show([&] { return progress_text(so_far) + (preview.is_there() ? "   so far: preview.png" : ""); });

@@ -18,6 +18,9 @@ public:
     explicit LivePage(std::uint16_t port) : server_(port) {}
 
     std::string address() const { return server_.address(); }
+    // What the page shows before the first pictures: the scene's name, and previews as PNG.
+    void announce(const std::string& scene) { server_.announce(scene); }
+    void preview(std::string png) { server_.preview(std::move(png)); }
     // Opens the page in a browser, if there is a display.
     void open();
     // Call if a browser will request the page.

@@ -102,6 +102,11 @@ public:
         is_finished_ = is_last;
         for (const auto& session : waiting_) session->timer.cancel();
     }
+    void announce(std::string title) { title_ = std::move(title); }
+    void preview(std::string png) {
+        preview_ = std::move(png);
+        ++previews_;
+    }
     bool has_pages() const { return !pages_.empty(); }
     bool all_have_the_last() const {
         for (const auto& [id, page] : pages_)
@@ -169,6 +174,7 @@ private:
         if (path == "/") return send(session, http::status::ok, "text/html; charset=utf-8", whole_page());
         if (path == "/data") return send(session, http::status::ok, "text/plain; charset=utf-8", data_);
         if (path == "/progress") return wait_for_news(session, target);
+        if (path == "/preview.png" && !preview_.empty()) return send(session, http::status::ok, "image/png", preview_);
         if (path == "/favicon.ico") return send(session, http::status::no_content, "text/plain", "");
         send(session, http::status::not_found, "text/plain", "there is no such thing here\n");
     }
@@ -189,13 +195,18 @@ private:
     void send_news(const Shared& session, std::uint64_t after) {
         Json news = progress_;
         news["version"] = version_;
+        if (previews_ > 0) news["preview"] = previews_;
         news["finished"] = is_finished_;
         if (!is_finished_ || after != version_) session->page.clear();
         send(session, http::status::ok, "application/json",
              json_text(news));  // a path may not be UTF-8
     }
     std::string whole_page() const {
-        if (data_.empty()) return neumann::page("waiting.html", {});
+        if (data_.empty()) {
+            const std::string title =
+                fmt::format("<script type=\"application/json\" id=\"title\">{}</script>\n", for_script(title_));
+            return neumann::page("waiting.html", {title});
+        }
         const std::string version = fmt::format("<script type=\"application/json\" id=\"live\">{}</script>\n", version_);
         return neumann::page("explorer.html", {version, data_});
     }
@@ -223,7 +234,8 @@ private:
     asio::steady_timer again_{io_};
     std::uint16_t port_ = 0;
     nlohmann::ordered_json progress_ = nlohmann::ordered_json::object();
-    std::string data_;
+    std::string title_, preview_, data_;
+    std::uint64_t previews_ = 0;
     std::uint64_t version_ = 0;
     bool is_finished_ = false;
     std::map<std::string, Page> pages_;
@@ -238,6 +250,12 @@ std::string PageServer::address() const { return fmt::format("http://127.0.0.1:{
 
 void PageServer::tell(nlohmann::ordered_json progress) {
     answers_->post([to = answers_.get(), progress = std::move(progress)] { to->tell(progress); });
+}
+void PageServer::announce(std::string title) {
+    answers_->post([to = answers_.get(), title = std::move(title)] { to->announce(title); });
+}
+void PageServer::preview(std::string png) {
+    answers_->post([to = answers_.get(), png = std::move(png)] { to->preview(png); });
 }
 void PageServer::show(std::string data) {
     answers_->post([to = answers_.get(), data = std::move(data)]() mutable { to->show(std::move(data), false); });

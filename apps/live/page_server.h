@@ -23,6 +23,9 @@ public:
     // May be called from any thread, and do not wait. Data are those of explorer_data(); `progress`: an object.
     void tell(nlohmann::ordered_json progress);
     void show(std::string data);
+    // What the page shows until there are data: a name of what is rendered, and a PNG.
+    void announce(std::string title);
+    void preview(std::string png);
     void finish(std::string data);
 
     // Waits until open pages, or one that `is_expected`, have the last data; but no longer than `at_most`.

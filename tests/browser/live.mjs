@@ -23,6 +23,9 @@ const address = await new Promise(found => {
 
 const browser = await openBrowser();
 const page = await browser.visit(address);
+// At once it has the scene's name and a bar.
+assert.equal(await page.locator("h1").innerText(), "cornell-box.xml");
+assert.ok(await page.locator("#bar, #title").first().isVisible());
 await page.waitForSelector("body[data-ready]");  // the page that waited has become the explorer
 const samples = () => page.evaluate(() => all[0].run.samples.per_pixel);
 const soFar = () => page.locator("#so-far").innerText();

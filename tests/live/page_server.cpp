@@ -38,6 +38,11 @@ nlohmann::json progress(const PageServer& server, std::uint64_t after, const std
 TEST(PageServer, WaitsForDataAndHandsThemOut) {
     PageServer server(0);
     EXPECT_NE(body(answer(server, "GET /")).find("No samples yet"), std::string::npos);
+    EXPECT_TRUE(answer(server, "GET /preview.png").starts_with("HTTP/1.1 404"));
+    server.announce("</script>.xml");
+    server.preview("PNG");
+    EXPECT_NE(body(answer(server, "GET /")).find("id=\"title\">\"\\u003c/script>.xml\"</script>"), std::string::npos);
+    EXPECT_EQ(body(answer(server, "GET /preview.png")), "PNG");
     server.tell({{"samples", 3}});
     nlohmann::json news = progress(server, 0);  // after a second without any
     EXPECT_EQ(news.at("version"), 0);

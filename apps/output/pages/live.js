@@ -15,7 +15,8 @@ const fetched = async path => {
   }
 };
 // Asks the server for progress until the render ends. Calls take() whenever the data are newer than `version`; take() returns
-// whether it got them. Calls tell() with a sentence about how far the render is.
+// whether it got them. Calls tell() with a sentence about how far the render is, and
+// with the server's answer.
 const follow = async (version, take, tell) => {
   const page = Math.random().toString(36).slice(2);
   let hasAll = false;
@@ -26,7 +27,7 @@ const follow = async (version, take, tell) => {
     const news = JSON.parse(text), isNew = news.version !== version;
     const hasIt = !isNew || await take();
     hasAll = hasIt && news.finished;
-    if (hasIt) tell(news.finished ? `Finished.${news.file ? ` What this page shows is kept in ${news.file}` : ""}` : progressText(news));
+    if (hasIt) tell(news.finished ? `Finished.${news.file ? ` What this page shows is kept in ${news.file}` : ""}` : progressText(news), news);
     if (news.finished && !isNew) return;
     version = news.version;
   }
