@@ -57,7 +57,7 @@ const placeSheet = () => {
   const stage = $("stage"), width = stage.clientWidth, s = series(), viewer = stage.parentElement;
   // Limits the height of the picture so that all of the viewer is in sight, but not below 45% of the window and 240 pixels.
   const high = e => e.getBoundingClientRect().height, figures = high($("readout")), room = state.slide ? 0 : figuresRoom;
-  const around = high(viewer) - high(stage) - figures + room, taken = viewer.parentElement.offsetTop + around;
+  const around = high(viewer) - high(stage) - figures + room, taken = Math.ceil(viewer.getBoundingClientRect().top + scrollY + around);
   const limit = Math.max(.45 * innerHeight, 240, innerHeight - taken), height = state.slide ? innerHeight - taken : Math.min(width * s.height / s.width, limit);
   stage.style.height = `${height}px`;
   viewer.parentElement.style.setProperty("--viewer", `${around + height}px`);
