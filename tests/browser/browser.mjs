@@ -34,6 +34,7 @@ export const openBrowser = async () => {
     // `alone`: a page that asks for nothing but itself; otherwise only its own server is asked.
     async visit(url, { width = 1280, height = 900, scheme = "light", hash = "", alone = false } = {}) {
       const page = await browser.newPage({ viewport: { width, height }, colorScheme: scheme });
+      page.setDefaultTimeout(120000);  // a machine that does much else
       page.on("request", r => { if (alone ? r.url().split("#")[0] !== url : !r.url().startsWith(url)) complaints.push(`asked for ${r.url()}`); });
       page.on("console", m => { if (["error", "warning"].includes(m.type())) complaints.push(m.text()); });
       page.on("pageerror", e => complaints.push(e.message));
