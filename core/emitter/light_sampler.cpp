@@ -47,15 +47,18 @@ constexpr double of_all_sides = 0.25;
 
 }  // namespace
 
-LightSampler::LightSampler(const Geometry& geometry, const Emitters& emitters, LightChoice choice, LightPlace place)
-    : LightSampler(geometry, emitters, choice, place, probabilities(emitters, choice, geometry.shapes().size())) {}
+LightSampler::LightSampler(const Geometry& geometry, const Emitters& emitters, LightChoice choice, LightPlace place,
+                           std::shared_ptr<const LightVisibility> visibility)
+    : LightSampler(geometry, emitters, choice, place, std::move(visibility),
+                   probabilities(emitters, choice, geometry.shapes().size())) {}
 
 LightSampler::LightSampler(const Geometry& geometry, const Emitters& emitters, LightChoice choice, LightPlace place,
-                           const std::vector<double>& share)
+                           std::shared_ptr<const LightVisibility> visibility, const std::vector<double>& share)
     : geometry_(&geometry),
       emitters_(&emitters),
       choice_(choice),
       place_(place),
+      visibility_(choice == LightChoice::seen ? std::move(visibility) : nullptr),
       table_(geometry, emitters, share,
              place == LightPlace::area ? LightTable::Rectangles::as_triangles : LightTable::Rectangles::whole) {
     if (table_.parts().size() <= most_kept_places) keep_places();
@@ -160,7 +163,7 @@ SurfacePoint LightSampler::point_towards(const Part& part, const Vec3& x, const 
 }
 
 LightSample LightSampler::sample_by_contribution(const Receiver& x, const Vec2& uv) const {
-    const std::vector<double> sums = contributions(x.position);
+    const std::vector<double> sums = contributions(x);
     const double all = sums.back(), u = uv.x * all;
     if (!(all > 0.0)) return {};
     const auto found = std::upper_bound(sums.begin(), sums.end() - 1, u);
@@ -213,7 +216,7 @@ double LightSampler::pdf_in_general(const Receiver& x, const Vec3& w, const Surf
 }
 
 double LightSampler::probability_of_part(const Part& part, double area, const Receiver& x) const {
-    if (choice_ == LightChoice::contribution) return contribution(part, x.position) / contributions(x.position).back();
+    if (goes_by_contribution()) return weighted(part, x.position, learned(x)) / contributions(x).back();
     if (choice_ != LightChoice::tree) return density_of_shape_[part.shape] * area;
     const std::vector<double> sums = importances(x);
     return sums.front() > 0.0 ? sums.front() / sums.back() *
@@ -223,8 +226,7 @@ double LightSampler::probability_of_part(const Part& part, double area, const Re
 
 double LightSampler::probability_of_distant(std::size_t distant, const Receiver& x) const {
     if (choice_ == LightChoice::all) return 1.0;
-    if (choice_ == LightChoice::contribution)
-        return emitters_->distant_irradiance(distant, x.position) / contributions(x.position).back();
+    if (goes_by_contribution()) return weighted(distant, x.position, learned(x)) / contributions(x).back();
     const std::size_t light = table_.parts().size() + distant;
     if (choice_ != LightChoice::tree) return table_.probability(light);
     const std::vector<double> sums = importances(x);
@@ -330,13 +332,23 @@ double LightSampler::contribution(const Part& part, const Vec3& x) const {
         geometry_->shapes()[part.shape]);
 }
 
-std::vector<double> LightSampler::contributions(const Vec3& x) const {
+double LightSampler::weighted(const Part& part, const Vec3& x, const float* learned) const {
+    return contribution(part, x) * (learned ? static_cast<double>(learned[part.shape]) : 1.0);
+}
+
+double LightSampler::weighted(std::size_t distant, const Vec3& x, const float* learned) const {
+    return emitters_->distant_irradiance(distant, x) *
+           (learned ? static_cast<double>(learned[geometry_->shapes().size() + distant]) : 1.0);
+}
+
+std::vector<double> LightSampler::contributions(const Receiver& x) const {
+    const float* const learned_here = learned(x);
     std::vector<double> sums;
     sums.reserve(table_.size());
     double sum = 0.0;
-    for (const Part& part : table_.parts()) sums.push_back(sum += contribution(part, x));
+    for (const Part& part : table_.parts()) sums.push_back(sum += weighted(part, x.position, learned_here));
     for (std::size_t i = table_.parts().size(); i < table_.size(); ++i)
-        sums.push_back(sum += emitters_->distant_irradiance(table_.distant(i), x));
+        sums.push_back(sum += weighted(table_.distant(i), x.position, learned_here));
     return sums;
 }
 

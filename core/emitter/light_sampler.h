@@ -3,10 +3,12 @@
 
 #include "core/emitter/light_table.h"
 #include "core/emitter/light_tree.h"
+#include "core/emitter/light_visibility.h"
 #include "core/sampling/delta_pdf.h"
 #include "core/sampling/projected_polygon.h"
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -37,6 +39,8 @@ enum class LightChoice {
     // In proportion to the unoccluded contribution to the point, radiance times solid angle; takes time linear in the
     // number of parts of lights.
     contribution,
+    // The same times the square root of the learned probability that the light is seen (light_visibility.h).
+    seen,
     // About as `contribution`, by bounds of groups of lights; takes time logarithmic in the number of parts.
     tree,
     all  // every light once
@@ -63,8 +67,9 @@ struct Receiver {
 // Keeps references to the geometry and the emitters.
 class LightSampler {
 public:
+    // `visibility` is for LightChoice::seen, which is `contribution` without it.
     explicit LightSampler(const Geometry& geometry, const Emitters& emitters, LightChoice choice = LightChoice::mixed,
-                          LightPlace place = LightPlace::area);
+                          LightPlace place = LightPlace::area, std::shared_ptr<const LightVisibility> visibility = nullptr);
 
     // Whether there is no light to sample.
     bool empty() const { return table_.empty(); }
@@ -75,7 +80,7 @@ public:
     // point on it. The density is that of pdf(). `number` is the number of the sample, below samples_per_point().
     LightSample sample(const Receiver& x, const Vec2& uv, std::size_t number = 0) const {
         if (empty()) return {};
-        if (choice_ == LightChoice::contribution) return sample_by_contribution(x, uv);
+        if (goes_by_contribution()) return sample_by_contribution(x, uv);
         if (choice_ == LightChoice::tree) return sample_by_tree(x, uv);
         const LightTable::Choice chosen =
             choice_ == LightChoice::all ? table_.choose_of(table_.lights()[number], uv.x) : table_.choose(uv.x);
@@ -104,7 +109,7 @@ public:
 
 private:
     LightSampler(const Geometry& geometry, const Emitters& emitters, LightChoice choice, LightPlace place,
-                 const std::vector<double>& share);
+                 std::shared_ptr<const LightVisibility> visibility, const std::vector<double>& share);
 
     using Part = LightTable::Part;
     void keep_places();
@@ -161,7 +166,8 @@ private:
     LightSample sample_by_contribution(const Receiver& x, const Vec2& uv) const;
     LightSample sample_by_tree(const Receiver& x, const Vec2& uv) const;
     // Whether lights are chosen by where x is.
-    bool depends_on_place() const { return choice_ == LightChoice::contribution || choice_ == LightChoice::tree; }
+    bool goes_by_contribution() const { return choice_ == LightChoice::contribution || choice_ == LightChoice::seen; }
+    bool depends_on_place() const { return goes_by_contribution() || choice_ == LightChoice::tree; }
     double pdf_in_general(const Receiver& x, const Vec3& w, const SurfacePoint& y) const;
 
     bool is_near(const Part& part, const Vec3& x) const;
@@ -171,8 +177,12 @@ private:
     double sampled_solid_angle(const Part& part, const Vec3& x) const;
     double contribution(const Part& part, const Vec3& x) const;
     double probability_of_part(const Part& part, double area, const Receiver& x) const;
-    // Cumulative contributions of all parts and distant lights.
-    std::vector<double> contributions(const Vec3& x) const;
+    // What is learned of the visibility of lights from x; null if nothing is.
+    const float* learned(const Receiver& x) const { return visibility_ ? visibility_->weights(x.position, x.normal) : nullptr; }
+    // The contributions of a part and of a distant light with what is learned, and the cumulative ones of all.
+    double weighted(const Part& part, const Vec3& x, const float* learned) const;
+    double weighted(std::size_t distant, const Vec3& x, const float* learned) const;
+    std::vector<double> contributions(const Receiver& x) const;
     LightTree make_tree();
     // The cumulative importances of the tree and of the lights that are everywhere, in this order.
     std::vector<double> importances(const Receiver& x) const;
@@ -184,6 +194,7 @@ private:
     const Emitters* emitters_;
     LightChoice choice_;
     LightPlace place_;
+    std::shared_ptr<const LightVisibility> visibility_;
     LightTable table_;
     LightTree tree_;                                     // over the table's entries that have a place
     std::vector<std::size_t> everywhere_;                // the table's other entries

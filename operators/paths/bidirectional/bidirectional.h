@@ -43,7 +43,7 @@ public:
           settings_(settings),
           pixels_(pixels),
           emission_(scene.geometry, scene.emitters),
-          lights_(scene.geometry, scene.emitters, settings.direct.lights, settings.direct.place),
+          lights_(scene.geometry, scene.emitters, settings.direct.lights, settings.direct.place, settings.direct.visibility),
           shares_out_lights_(has_several_lights(scene)) {}
 
     // Contributions of path i to its own pixel, and of its light subpath at a position on the film, times the number of pixels.

@@ -21,7 +21,7 @@ bool has_several_lights(const Scene& scene) {
 DirectLightSampler::DirectLightSampler(const Scene& scene, const DirectLightSettings& settings)
     : emitters_(&scene.emitters),
       settings_(settings),
-      lights_(scene.geometry, scene.emitters, settings.lights, settings.place),
+      lights_(scene.geometry, scene.emitters, settings.lights, settings.place, settings.visibility),
       light_samples_(scene.emitters.empty() || settings.direct == DirectLight::bsdf ? 0 : 1) {
     if (light_samples_ > 0 && (settings.direct == DirectLight::light || settings.direct == DirectLight::mis))
         light_samples_ = lights_.samples_per_point();

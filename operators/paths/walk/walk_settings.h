@@ -23,6 +23,7 @@ struct DirectLightSettings {
     LightChoice lights = LightChoice::mixed;
     LightPlace place = LightPlace::area;
     Heuristic heuristic = Heuristic::power;
+    std::shared_ptr<const LightVisibility> visibility = nullptr;  // of LightChoice::seen (seen_lights.h)
 
     bool operator==(const DirectLightSettings&) const = default;
 };

@@ -56,6 +56,7 @@ void add_setup(BounceSeries& series, const SamplingSettings& settings, double se
     series.setup_seconds = setup_seconds;
     series.seconds += setup_seconds;
     series.rays += settings.method->rays();
+    if (const auto& visibility = settings.walk.direct.visibility) series.rays += visibility->rays();
     if (settings.allocation) series.rays += settings.allocation->rays;
     for (Checkpoint& checkpoint : series.convergence) checkpoint.seconds += setup_seconds;
 }

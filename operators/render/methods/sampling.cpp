@@ -2,6 +2,8 @@
 
 #include "core/base/error.h"
 #include "operators/paths/walk/direct_light.h"
+#include "operators/paths/walk/learned_visibility.h"
+#include "operators/render/methods/ahead.h"
 #include "operators/render/methods/method_options.h"
 
 #include <fmt/format.h>
@@ -11,6 +13,8 @@
 namespace neumann {
 
 namespace {
+
+constexpr int learning_width = 32;  // of the film whose walks learn the visibility of lights, in pixels
 
 void expect_in_reach(const DirectLightSettings& direct, const Emitters& emitters) {
     if (misses_light(direct.direct, emitters))
@@ -66,6 +70,9 @@ bool set_up(const Method& method, const Scene& scene, int bounces, double memory
     settings.walk.bounces = bounces;
     settings.method = plain_walks();
     settings.allocation = {};
+    const bool learns = settings.walk.direct.lights == LightChoice::seen;
+    if (learns)
+        settings.walk.direct.visibility = learn_visibility(scene.with(small_film(scene.film, learning_width)), bounces, watch);
     // If the pilots of a mixture, or of the distribution of samples, are stopped, walks can still be sampled, equally
     // many in all pixels; the render reports this (as_it_ran() in describe_paths.cpp).
     const bool may_do_without = std::holds_alternative<method::Mixed>(method);
@@ -84,7 +91,7 @@ bool set_up(const Method& method, const Scene& scene, int bounces, double memory
         if (least) settings.allocation = settings.method->allocate(scene, settings, *least, watch);
     } catch (const Stopped&) {
     }
-    return least || settings.method->is_prepared();
+    return least || learns || settings.method->is_prepared();
 }
 
 }  // namespace neumann
