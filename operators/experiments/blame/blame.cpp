@@ -222,10 +222,12 @@ private:
         const auto from = compared_.begin() + static_cast<std::ptrdiff_t>(i);
         const std::vector<ComparedTerm> terms(from, from + std::min<std::ptrdiff_t>(2, compared_.end() - from));
         std::vector<Suspect> suspects = find_suspects(expected_, terms, are_sums(), shapes_seen(scene_));
-        const auto likeliest = std::ranges::min_element(suspects, {}, &Suspect::misfit);
-        const bool is_likely = misfit_of_none(terms) - likeliest->misfit > strong_evidence;
-        const bool is_explained =
-            sure.is_found() || std::ranges::any_of(suspects, [](const Suspect& s) { return s.is_a_cause && s.explains(); });
+        const double of_none = misfit_of_none(terms);
+        const auto is_strong = [&](const Suspect& s) { return of_none - s.misfit > strong_evidence; };
+        const bool is_likely = std::ranges::any_of(suspects, is_strong);
+        const bool is_explained = sure.is_found() || std::ranges::any_of(suspects, [&](const Suspect& s) {
+                                      return s.is_a_cause && s.explains() && is_strong(s);
+                                  });
         v.differs = is_likely && (is_explained || are_independent(c));
         if (v.differs) {
             std::ranges::stable_partition(suspects, [&](const Suspect& s) { return s.words == sure.words; });
