@@ -39,7 +39,7 @@ LECTURE_SCENES = ("courtyard", "fixtures", "four-floors", "lid", "pool", "six-ma
 # Of the Cornell box alone.
 OPTIONS = {
     "walk": ["--direct mis-solid-angle --lights all", "--direct bsdf --roulette albedo", "--direct light --lights power --split 3,2",
-             "--direct surfaces --roulette 0.7", "--sampler independent --plan full", "--direct mis-balance --lights contribution --tail 0.2", "--reuse --roulette 0.8", "--tree sum", "--indirect uniform"],
+             "--direct surfaces --roulette 0.7", "--sampler independent --plan full", "--direct mis-balance --lights contribution --tail 0.2", "--reuse --roulette 0.8", "--tree sum", "--indirect uniform", "--lights seen", "--tree place"],
     "light": ["--roulette throughput"],
     "bidirectional": ["--direct mis-balance --ways 2", "--roulette albedo"],
     "photon": ["--gather --photons 3000", "--radius 20"],

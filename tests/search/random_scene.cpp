@@ -10,7 +10,7 @@ namespace {
 
 // All methods have their turn; those that take long more rarely.
 std::vector<std::string> choose_methods(RandomNumbers& random) {
-    static const std::array<const char*, 13> walks{"walk:direct=bsdf",
+    static const std::array<const char*, 15> walks{"walk:direct=bsdf",
                                                    "walk:direct=projected",
                                                    "walk:direct=mis-projected",
                                                    "walk:direct=light:lights=all",
@@ -21,6 +21,8 @@ std::vector<std::string> choose_methods(RandomNumbers& random) {
                                                    "walk:tree=sum",
                                                    "walk:indirect=uniform",
                                                    "walk:indirect=cosine",
+                                                   "walk:lights=seen",
+                                                   "walk:tree=place",
                                                    "walk:adaptive=all",
                                                    "walk:plan=full"};
     std::vector<std::string> methods{"walk", "bidirectional"};

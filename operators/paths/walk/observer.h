@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 namespace neumann {
 
@@ -23,6 +24,9 @@ struct NoObserver {
     // The last meets(), casts_shadow_ray() or joins() adds this contribution to a quantity. Light tracing and bidirectional paths
     // use callbacks instead.
     void finds(std::uint32_t /*path*/, std::size_t /*quantity*/, const Rgb&) const {}
+    // Before the reflection of this bounce walks have become others, which are branches of those of these numbers.
+    template <class Walkers>
+    void branches(int /*bounce*/, const Walkers&, std::span<const std::uint32_t> /*of*/) const {}
     // Photons or records were read at the path's vertex. Of these, the one with the largest contribution is reported: a
     // photon by the number of its path from a light and the vertex, or a record by the number of its ray.
     void reads(std::uint32_t /*path*/, std::uint32_t /*read_path*/, std::uint32_t /*vertex*/, const Rgb&) const {}

@@ -1,12 +1,15 @@
 #include "operators/paths/walk/tree_ratios.h"
 
 #include "core/base/error.h"
+#include "operators/paths/walk/place_pilot.h"
+#include "operators/paths/walk/tree_numbers.h"
 #include "operators/paths/walk/tree_pilot.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace neumann {
 
@@ -14,13 +17,23 @@ namespace {
 
 constexpr std::uint32_t samples_of_pilot = 128;
 constexpr std::uint64_t tree_stream = 0x7472656573ull;  // differs from the seed of the pictures
-constexpr double least_ratio = 0.1, largest_ratio = 16.0, most_branches = 256.0;
+constexpr double most_branches = 256.0;
 
 }  // namespace
+
+double TreeRatios::walks(std::span<const double> rays_of_walk) const {
+    if (!of_places) return walks_of_tree(of_depths, rays_of_walk);
+    const double rays_of_one = std::accumulate(rays_of_walk.begin(), rays_of_walk.end(), 0.0);
+    return rays_of_one > 0.0 ? rays_by_place / rays_of_one : 1.0;
+}
 
 std::shared_ptr<const TreeRatios> tree_ratios(const Scene& scene, int bounces, const TreeGoal& goal, const Watch& watch) {
     if (goal.bounce && *goal.bounce > bounces)
         throw OptionError("tree", fmt::format("{}: the last bounce that has a picture is {}", *goal.bounce, bounces));
+    if (goal.by_place) {
+        const PlacePilot pilot = learn_place_ratios(scene, bounces, tree_stream, watch);
+        return std::make_shared<const TreeRatios>(TreeRatios{{}, pilot.all_rays, pilot.ratios, pilot.rays});
+    }
     if (goal.branches) {
         const double paths = std::pow(*goal.branches, bounces);
         if (paths > most_branches)
@@ -37,7 +50,7 @@ std::shared_ptr<const TreeRatios> tree_ratios(const Scene& scene, int bounces, c
     TreeRatios result{{}, pilot.rays};
     double number = 1.0;
     for (std::size_t j = 1; j < numbers.size(); ++j) {
-        const double ratio = std::clamp(numbers[j] / numbers[j - 1], least_ratio, largest_ratio);
+        const double ratio = std::clamp(numbers[j] / numbers[j - 1], least_branches, largest_branches);
         result.of_depths.push_back(std::min(ratio, most_branches / number));
         number *= result.of_depths.back();
     }

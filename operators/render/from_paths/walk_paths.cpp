@@ -1,7 +1,6 @@
 #include "operators/render/from_paths/walk_paths.h"
 
 #include "operators/paths/reuse/reusing_walk.h"
-#include "operators/paths/walk/tree_numbers.h"
 #include "operators/paths/walk/tree_walk.h"
 #include "operators/render/from_paths/walk_estimators.h"
 
@@ -14,7 +13,7 @@ std::shared_ptr<const PathMethod> plain_walks() {
 
 void TreeEstimator::operator()(std::span<const CameraRay> rays, std::span<Sampler> samplers, Walkers&, TermSamples& result) const {
     TreeWalkers tree;
-    walk_tree(*scene_, direct_, settings_, ratios_->of_depths, rays, samplers, tree, result);
+    walk_tree(*scene_, direct_, settings_, *ratios_, rays, samplers, tree, result);
 }
 
 void ReusingEstimator::operator()(std::span<const CameraRay> rays, std::span<Sampler> samplers, Walkers&,
@@ -38,9 +37,7 @@ std::shared_ptr<const PathSampler> WalkPaths::sampler(const Scene& scene, const 
     return std::make_shared<const EstimatorSampler>(scene, settings, std::move(estimator));
 }
 
-double WalkPaths::walks_worth(int, std::span<const double> rays_of_walk) const {
-    return tree_ ? walks_of_tree(tree_->of_depths, rays_of_walk) : 1.0;
-}
+double WalkPaths::walks_worth(int, std::span<const double> rays_of_walk) const { return tree_ ? tree_->walks(rays_of_walk) : 1.0; }
 
 // Lobes have no bound that holds for other directions than their own.
 bool WalkPaths::is_bounded(const SamplingSettings& settings) const { return settings.weighs_directions() && !directions_; }

@@ -35,7 +35,8 @@ Strategy strategy(const DirectLightSettings& direct) { return {direct.direct, di
 
 const Named<LightChoice> light_choices{{"mixed", LightChoice::mixed}, {"uniform", LightChoice::uniform},
                                        {"power", LightChoice::power}, {"contribution", LightChoice::contribution},
-                                       {"tree", LightChoice::tree},   {"all", LightChoice::all}};
+                                       {"seen", LightChoice::seen},   {"tree", LightChoice::tree},
+                                       {"all", LightChoice::all}};
 const Named<SamplerKind> samplers{{"sobol", SamplerKind::sobol}, {"independent", SamplerKind::independent}};
 const Named<LeastError> least_errors{{"bounces", LeastError::of_bounces}, {"sum", LeastError::of_sum}, {"all", LeastError::of_all}};
 std::optional<LeastError> read_least_error(const std::string& text) {
@@ -92,7 +93,9 @@ std::vector<MethodOption> options_of_walks() {
         choice(
             "lights", "WHICH",
             "How the light to sample is chosen: mixed (half by power, half uniform, the default), uniform, power, contribution "
-            "(radiance times solid angle), tree (about the same, for many lights), all (each in turn)",
+            "(radiance times solid angle), seen (the same, less where shadow rays of a pilot were blocked), tree (about "
+            "contribution, "
+            "for many lights), all (each in turn)",
             light_choices, [](const auto& m) requires requires { m.direct; } {
                 return samples_lights(m.direct) ? std::optional(m.direct.lights) : std::nullopt;
             },

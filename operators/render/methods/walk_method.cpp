@@ -20,6 +20,7 @@ constexpr int most_equal_branches = 16;
 
 std::optional<TreeGoal> read_tree(const std::string& text) {
     if (text == "sum") return std::make_optional<TreeGoal>();
+    if (text == "place") return TreeGoal{.by_place = true};
     if (text.starts_with(equal)) {
         const auto branches = number_in<int>(text.substr(equal.size()));
         return branches && *branches >= 2 && *branches <= most_equal_branches ? std::optional(TreeGoal{{}, *branches})
@@ -34,6 +35,7 @@ const Named<std::optional<HemisphereDensity>> densities{
 
 std::string print_tree(const TreeGoal& tree) {
     if (tree.branches) return fmt::format("{}{}", equal, *tree.branches);
+    if (tree.by_place) return "place";
     return tree.bounce ? fmt::format("{}", *tree.bounce) : "sum";
 }
 
@@ -51,12 +53,14 @@ std::vector<MethodOption> Walk::own_options() {
         option(
             "tree", "WHAT",
             "For walk: split walks, and end them by Russian roulette, by the numbers of samples at each depth that a pilot finds "
-            "best for the sum of all bounces (sum) or for one bounce (its number); or, to compare, into equally many at every "
+            "best for the sum of all bounces (sum) or for one bounce (its number), or by what it learns at each place (place, for "
+            "the "
+            "sum); or, to compare, into equally many at every "
             "reflection "
             "(equal-2)",
             [](const Walk& m) { return m.tree; }, [](Walk& m, const TreeGoal& t) { m.tree = t; },
             Form<TreeGoal>{read_tree, print_tree,
-                           not_a(fmt::format("sum, a bounce from 1 to {}, or equal-2 to equal-{}", most_depths_of_tree,
+                           not_a(fmt::format("sum, place, a bounce from 1 to {}, or equal-2 to equal-{}", most_depths_of_tree,
                                              most_equal_branches))}),
         flag(
             "reuse",

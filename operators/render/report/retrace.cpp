@@ -53,7 +53,7 @@ void TreeEstimator::trace(PathObserver& observer, std::span<const CameraRay> ray
                           TermSamples& result) const {
     TreeWalkers tree;
     SplitPaths split(observer, [&](std::uint32_t walker) { return tree.path[walker]; });
-    walk_tree(*scene_, direct_, settings_, ratios_->of_depths, rays, samplers, tree, result, WatchedPaths(split));
+    walk_tree(*scene_, direct_, settings_, *ratios_, rays, samplers, tree, result, WatchedPaths(split));
 }
 
 void ReusingEstimator::trace(PathObserver& observer, std::span<const CameraRay> rays, std::span<Sampler> samplers, Walkers&,

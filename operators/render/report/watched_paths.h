@@ -8,7 +8,7 @@
 
 namespace neumann {
 
-class WatchedPaths {
+class WatchedPaths : public NoObserver {
 public:
     explicit WatchedPaths(PathObserver& observer) : observer_(&observer) {}
 
