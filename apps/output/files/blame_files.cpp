@@ -89,7 +89,7 @@ Json blame_json(const Blame& found, const Scene& scene) {
         json["suspects"].push_back({{"name", s.name},
                                     {"words", s.words},
                                     {"misfit", json_number(s.misfit)},
-                                    {"p_of_what_is_left", json_number(s.left.p)}});
+                                    {"p_of_what_is_left", json_number(s.p_of_what_is_left)}});
     json["shapes"] = Json::array();
     for (const ShapeShare& s : found.shapes)
         json["shapes"].push_back({{"shape", name_of_vertex({s.shape, {}, {}}, scene)},

@@ -69,8 +69,9 @@ struct NextDirection {
     Vec3 w, w_in_world, n;
     Rgb albedo;
 };
-// The probability p with which Russian roulette lets a walk go on is the walk's throughput or the surface's reflectance.
-enum class Survival { by_throughput, by_reflectance };
+// The probability p with which Russian roulette lets a walk go on is the walk's throughput, or the reflectance of the surface that
+// it has met (before the lamp samples there) or of the one that it leaves (after them).
+enum class Survival { by_throughput, by_reflectance, by_reflectance_before };
 
 // The factor by which a mistake multiplies what a path brings; null functions are 1.
 struct MistakeKind {

@@ -8,12 +8,13 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <optional>
 
 namespace neumann {
 
 namespace {
 
-constexpr double clamp_limits[] = {0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0};
+constexpr double clamp_limits[] = {0.5, 0.7, 1.0, 1.4, 2.0, 2.8, 4.0, 5.6, 8.0, 11.0, 16.0, 22.0, 32.0};
 constexpr double most_survival = 0.95;
 
 std::vector<WrongTerms> all_wrong() {
@@ -96,7 +97,7 @@ private:
                          Sampler& sampler);
         void hit(const SurfacePoint& x, const Vec3& wo, const Rgb& beta, double pdf, double pdf_of_lamp, int bounce,
                  bool had_diffuse);
-        void play_roulette(const Rgb& beta, const Rgb& albedo);
+        void play_roulette(const Rgb& beta, const Rgb& albedo, const std::optional<Rgb>& albedo_before);
         void reflect(const Reflection& reflection);
         void mirror();
         void go_on(const NextDirection& next);
@@ -190,11 +191,14 @@ void WrongPaths::Walk::hit(const SurfacePoint& x, const Vec3& wo, const Rgb& bet
 }
 
 // The walk's own throughput, with the mistake, decides: beta times the factors of survivors, whose probability is in `factor`.
-void WrongPaths::Walk::play_roulette(const Rgb& beta, const Rgb& albedo) {
+void WrongPaths::Walk::play_roulette(const Rgb& beta, const Rgb& albedo, const std::optional<Rgb>& albedo_before) {
     for (std::size_t m = 0; m < factor.size(); ++m) {
         const MistakeKind& kind = *paths.wrong_[m].kind;
-        if (!kind.survivors || !(survived[m] > 0.0)) continue;
-        const Rgb decides = kind.survival == Survival::by_reflectance ? albedo : beta * factor[m] / survived[m];
+        const bool is_before = kind.survival == Survival::by_reflectance_before;
+        if (!kind.survivors || !(survived[m] > 0.0) || (is_before && !albedo_before)) continue;
+        const Rgb decides = is_before                                   ? *albedo_before
+                            : kind.survival == Survival::by_reflectance ? albedo
+                                                                        : beta * factor[m] / survived[m];
         const double p = std::min(max_component(decides), most_survival);
         survived[m] *= p;
         factor[m] *= p > 0.0 ? kind.survivors(p) : 0.0;
@@ -247,6 +251,7 @@ int WrongPaths::Walk::go(int column, int row, Sampler& sampler) {
     if (!scene.geometry.first_hit(ray.origin, ray.direction, ray.length, x)) x.shape = SurfacePoint::infinity;
     Vec3 wo = -ray.direction;
     Rgb beta(camera.weight);
+    std::optional<Rgb> albedo_before;
     for (std::size_t m = 0; m < now.size(); ++m) {
         const Mistake mistake = paths.wrong_[m].mistake();
         const Rgb front = scene.emitters.emitted(x, wo);
@@ -262,7 +267,8 @@ int WrongPaths::Walk::go(int column, int row, Sampler& sampler) {
         if (!side.bsdf) break;
         const Vec3 local = side.p.frame.to_local(wo);
         const Rgb albedo = reflectance(*side.bsdf, side.p);
-        if (bounce >= first_roulette) play_roulette(beta, albedo);
+        if (bounce >= first_roulette) play_roulette(beta, albedo, albedo_before);
+        albedo_before = albedo;
         arrived = factor;
         reflect({albedo, glm::dot(x.normal, wo) < 0.0 && !transmits(*side.bsdf)});
         if (!paths.lights_.empty()) sample_lamp(side, x, local, beta, bounce, sampler);

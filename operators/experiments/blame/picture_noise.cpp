@@ -11,6 +11,25 @@ namespace {
 
 constexpr double median_of_square = 0.4549;  // of a normal variable with variance 1
 
+// The median of each pixel and of those up to three pixels away from it.
+Image median_around(const Image& image) {
+    constexpr int reach = 3;
+    Image result(image.width, image.height);
+    std::vector<double> around;
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x)
+            for (int c = 0; c < 3; ++c) {
+                around.clear();
+                for (int j = std::max(y - reach, 0); j <= std::min(y + reach, image.height - 1); ++j)
+                    for (int i = std::max(x - reach, 0); i <= std::min(x + reach, image.width - 1); ++i)
+                        around.push_back(image.at(i, j)[c]);
+                const auto middle = around.begin() + static_cast<std::ptrdiff_t>(around.size() / 2);
+                std::nth_element(around.begin(), middle, around.end());
+                result.at(x, y)[c] = *middle;
+            }
+    return result;
+}
+
 }  // namespace
 
 double mean_of(const Image& image, int channel) {
@@ -20,7 +39,7 @@ double mean_of(const Image& image, int channel) {
 }
 
 Image local_variance(const Image& picture) {
-    Image squares(picture.width, picture.height), result(picture.width, picture.height);
+    Image squares(picture.width, picture.height);
     const auto at = [&](int x, int y) -> const Rgb& {
         return picture.at(std::clamp(x, 0, picture.width - 1), std::clamp(y, 0, picture.height - 1));
     };
@@ -29,19 +48,8 @@ Image local_variance(const Image& picture) {
             const Rgb d = at(x, y) - (at(x - 1, y) + at(x + 1, y) + at(x, y - 1) + at(x, y + 1)) * 0.25;
             squares.at(x, y) = d * d / 1.25;
         }
-    constexpr int reach = 3;  // in pixels
-    std::vector<double> around;
-    for (int y = 0; y < picture.height; ++y)
-        for (int x = 0; x < picture.width; ++x)
-            for (int c = 0; c < 3; ++c) {
-                around.clear();
-                for (int j = std::max(y - reach, 0); j <= std::min(y + reach, picture.height - 1); ++j)
-                    for (int i = std::max(x - reach, 0); i <= std::min(x + reach, picture.width - 1); ++i)
-                        around.push_back(squares.at(i, j)[c]);
-                const auto middle = around.begin() + static_cast<std::ptrdiff_t>(around.size() / 2);
-                std::nth_element(around.begin(), middle, around.end());
-                result.at(x, y)[c] = *middle / median_of_square;
-            }
+    Image result = median_around(squares);
+    for (Rgb& c : result.pixels) c /= median_of_square;
     return result;
 }
 
@@ -55,18 +63,19 @@ Image noise_of_neighbours(const PictureNoise& theirs, const PictureNoise& ours) 
 
 double times_the_variance(const Image& picture, const PictureNoise& known) {
     constexpr double enough = 0.02;  // part of the pixels
-    const Image around = local_variance(picture);
+    const Image around = local_variance(picture), known_around = median_around(known.variance);
     std::vector<double> by_difference, by_neighbours;
     for (std::size_t i = 0; i < picture.pixels.size(); ++i)
         for (int c = 0; c < 3; ++c)
             if (const double v = known.variance.pixels[i][c]; v > 0.0) {
                 const double d = picture.pixels[i][c] - known.mean.pixels[i][c];
                 by_difference.push_back(d * d / v / median_of_square - 1.0);
-                by_neighbours.push_back(around.pixels[i][c] / v);
+                // Along the edge of a lamp the neighbours of a noisy pixel have no noise, and tell nothing.
+                if (known_around.pixels[i][c] > 0.0) by_neighbours.push_back(around.pixels[i][c] / v);
             }
-    if (static_cast<double>(by_difference.size()) < enough * 3.0 * static_cast<double>(picture.pixels.size()))
-        return std::numeric_limits<double>::infinity();
-    const auto median = [](std::vector<double>& values) {
+    const double least = enough * 3.0 * static_cast<double>(picture.pixels.size());
+    const auto median = [&](std::vector<double>& values) {
+        if (static_cast<double>(values.size()) < least) return std::numeric_limits<double>::infinity();
         const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
         std::nth_element(values.begin(), middle, values.end());
         return *middle;

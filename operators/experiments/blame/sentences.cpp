@@ -78,7 +78,8 @@ std::string which_bounce(const std::vector<TermVerdict>& terms, std::size_t firs
 }
 
 std::string what_it_looks_like(const Suspect& best, const Suspect& next) {
-    return fmt::format("It looks as if {}{}{}.", best.words, best.left.p < 1e-6 ? ", which explains most but not all of it" : "",
+    return fmt::format("It looks as if {}{}{}.", best.words,
+                       best.p_of_what_is_left < 1e-6 ? ", which explains most but not all of it" : "",
                        next.misfit - best.misfit < clear_lead ? fmt::format("; or {}", next.words) : "");
 }
 

@@ -19,11 +19,15 @@ public:
 
     void add(const std::string& name, const std::string& words, const std::vector<PictureNoise>& wrong, int parameters,
              bool is_fitted, bool is_smoothed = false, bool is_a_cause = true) {
-        double sum = parameters * std::log(static_cast<double>(terms_.front().ours.mean.pixels.size() * 3 * terms_.size()));
-        for (std::size_t i = 0; i < terms_.size(); ++i)
-            sum += misfit(terms_[i].theirs, wrong[i], is_smoothed ? terms_[i].ours.variance : wrong[i].variance);
-        const ComparedTerm& first = terms_.front();
-        all_.push_back({name, words, sum, is_fitted, is_a_cause, explained_.by(wrong[0]), test_difference(first.theirs, wrong[0])});
+        Suspect suspect{name, words, 0.0, is_fitted, is_a_cause, explained_.by(wrong[0])};
+        suspect.misfit = parameters * std::log(static_cast<double>(terms_.front().ours.mean.pixels.size() * 3 * terms_.size()));
+        for (std::size_t i = 0; i < terms_.size(); ++i) {
+            suspect.misfit += misfit(terms_[i].theirs, wrong[i], is_smoothed ? terms_[i].ours.variance : wrong[i].variance);
+            const double p = test_difference(terms_[i].theirs, wrong[i]).p;
+            if (i == 0) suspect.p_of_what_is_left = p;
+            suspect.p_of_all_that_is_left = std::min(suspect.p_of_all_that_is_left, p * static_cast<double>(terms_.size()));
+        }
+        all_.push_back(std::move(suspect));
     }
 
     std::vector<Suspect> likeliest_first() {
@@ -31,7 +35,8 @@ public:
         constexpr double unexplained = 1e-3, most_of_it = 0.9;
         const double best = all_.front().misfit, right = misfit_of_none(terms_);
         std::stable_partition(all_.begin(), all_.end(), [&](const Suspect& s) {
-            return !s.is_fitted && s.left.p > unexplained && (right - s.misfit > most_of_it * (right - best) || s.explains());
+            return !s.is_fitted && s.p_of_all_that_is_left > unexplained &&
+                   (right - s.misfit > most_of_it * (right - best) || s.explains());
         });
         std::map<std::string, double> most_explained;
         for (const Suspect& s : all_) most_explained[s.name] = std::max(most_explained[s.name], s.explained);

@@ -19,10 +19,12 @@ struct Suspect {
     bool is_a_cause = false;  // see WrongPictures
     // Part of the squared difference in the first term (see Explained); the best value of its kind.
     double explained = 0.0;
-    DifferenceTest left;  // test of the first term against the picture of this mistake
+    // The probability by chance of what is left between its picture and theirs: in the first term, and, for all terms together,
+    // in the one where most is.
+    double p_of_what_is_left = 1.0, p_of_all_that_is_left = 1.0;
 
     // Whether it explains all that can be seen; the limits allow for its own picture being known only roughly.
-    bool explains() const { return explained > 0.95 && left.p > 1e-6; }
+    bool explains() const { return explained > 0.95 && p_of_what_is_left > 1e-6; }
 };
 
 // The likeliest mistake of each kind, likeliest first; but mistakes that leave nothing unexplained, and are not fitted,
