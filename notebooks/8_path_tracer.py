@@ -384,24 +384,25 @@ assert unweighted.first_wrong.first == 2 and unweighted.suspects[0].name == "no_
 
 # %%
 ours = room.render(bounces=7, spp=256, sampler="independent", seed=seed + 10**6, quiet=True)
-rays, means = room.camera_rays(64, seed=seed), {}
+n = 256
+rays, means = room.camera_rays(n, seed=seed), {}
 for name, weighted in (("divided by $q$", True), ("not divided", False)):
     bounce = lambda *p: at_least_one_bounce(*p, weighted)
     terms = radiance_in(rays.origin, rays.direction, bounce, np.random.default_rng(seed))
-    means[name] = np.array([L.reshape(64, -1).mean(axis=1) for L in terms])  # of 64 groups of samples
+    means[name] = np.array([L.reshape(n, -1).mean(axis=1) for L in terms])  # of n groups of samples
 rest = means["divided by $q$"][8:].sum(axis=0)
-both = np.hypot(rest.std(ddof=1) / 8, ours.run.rest.stderr)
+both = np.hypot(rest.std(ddof=1) / np.sqrt(n), ours.run.rest.stderr)
 figure, axes = plt.subplots()
 axes.semilogy(range(8), [b.mean for b in ours.run.bounces], "k-", label="the program")
 for (name, groups), marker in zip(means.items(), "os"):
-    mean, error = groups[:8].mean(axis=1), groups[:8].std(axis=1, ddof=1) / 8
+    mean, error = groups[:8].mean(axis=1), groups[:8].std(axis=1, ddof=1) / np.sqrt(n)
     axes.errorbar(range(8), mean, yerr=2 * error, fmt=marker, capsize=3, label=name)
 axes.set(xlabel="bounce", ylabel=f"mean of the picture, {radiance_unit}", yscale="log", title="Russian roulette")
 axes.legend()
 plt.show()
 print(f"longest path: {len(terms) - 1} bounces; beyond bounce 7 the program has {ours.run.rest.mean:.5f}, I {rest.mean():.5f}")
 # A false alarm in 150 000 seeds.
-assert abs(rest.mean() - ours.run.rest.mean) <= limit(min(63, ours.run.rest.degrees_of_freedom)) * both
+assert abs(rest.mean() - ours.run.rest.mean) <= limit(min(n - 1, ours.run.rest.degrees_of_freedom)) * both
 
 # %% [markdown]
 # The figure: mean of each bounce, with 95% bars. What is not divided falls faster, by $q$ a bounce. What roulette finds beyond
