@@ -398,7 +398,9 @@ for k, title in enumerate(("directions", "surfaces")):
     for i in range(3):
         row = "   ".join(f"{name} {mean:.4f} ± {error:.4f}" for name, mean, error in zip(names, *estimates[k, i]))
         print(f"bounce {i}, R over {title:10s}  {row}   errors apart: {np.abs(z[k, i]).max():.1f}")
-assert np.abs(z).max() <= limit() and (estimates[:, :, 1] < 0.12 * known).all()
+assert np.abs(z).max() <= limit()
+# Over surfaces there is no such promise: where two of them meet, 1/d² has infinite variance, and an error bar may jump.
+assert (estimates[0, :, 1] < 0.12 * known[0]).all()
 
 figure, axes = plt.subplots()
 place_of = np.arange(4)

@@ -221,7 +221,7 @@ private:
         const ComparedTerm& c = compared_[i];
         const auto from = compared_.begin() + static_cast<std::ptrdiff_t>(i);
         const std::vector<ComparedTerm> terms(from, from + std::min<std::ptrdiff_t>(2, compared_.end() - from));
-        std::vector<Suspect> suspects = find_suspects(expected_, terms, are_sums(), shapes_seen(scene_));
+        std::vector<Suspect> suspects = find_suspects(expected_, before_that_agrees(i), terms, are_sums(), shapes_seen(scene_));
         const double of_none = misfit_of_none(terms);
         const auto is_strong = [&](const Suspect& s) { return of_none - s.misfit > strong_evidence; };
         const bool is_likely = std::ranges::any_of(suspects, is_strong);
@@ -235,6 +235,12 @@ private:
         } else {
             v.doubt = is_likely ? doubt_about(c) : TermVerdict::Doubt::few_samples;
         }
+    }
+
+    // The term before, if it agrees.
+    const ComparedTerm* before_that_agrees(std::size_t i) const {
+        if (i == 0 || result_.terms[i - 1].differs || result_.terms[i - 1].doubt) return nullptr;
+        return &compared_[i - 1];
     }
 
     // Their two pictures, unless they are the same.

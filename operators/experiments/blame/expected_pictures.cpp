@@ -42,22 +42,25 @@ int ExpectedPictures::paths_a_pixel() const {
 }
 
 template <class T, class Make>
-std::shared_ptr<const T> ExpectedPictures::find_or_make(std::vector<Made<T>>& all, const Ranges& ranges, const Make& make) {
-    const auto known = std::ranges::find(all, ranges, &Made<T>::ranges);
+std::shared_ptr<const T> ExpectedPictures::find_or_make(std::vector<Made<T>>& all, const Ranges& ranges, std::size_t begins,
+                                                        const Make& make) {
+    const auto known =
+        std::ranges::find_if(all, [&](const Made<T>& made) { return made.ranges == ranges && made.begins == begins; });
     if (known != all.end()) return known->pictures;
     if (!keeps_all_) all.clear();
-    all.push_back({ranges, std::make_shared<const T>(make())});
+    all.push_back({ranges, begins, std::make_shared<const T>(make())});
     return all.back().pictures;
 }
 
-std::shared_ptr<const std::vector<WrongTerms>> ExpectedPictures::wrong(const Ranges& ranges) {
-    return find_or_make(wrong_, ranges, [&] { return wrong_terms(scene_, ranges, paths_a_pixel(), seed_ + 1, watch_); });
+std::shared_ptr<const std::vector<WrongTerms>> ExpectedPictures::wrong(const Ranges& ranges, std::size_t begins) {
+    return find_or_make(wrong_, ranges, begins,
+                        [&] { return wrong_terms(scene_, ranges, begins, paths_a_pixel(), seed_ + 1, watch_); });
 }
 
 std::shared_ptr<const std::vector<WrongPictures>> ExpectedPictures::without_techniques(const Ranges& ranges) {
     // A bidirectional path takes several times as long.
     const auto samples = static_cast<std::uint64_t>(paths_a_pixel() / 4);
-    return find_or_make(without_techniques_, ranges,
+    return find_or_make(without_techniques_, ranges, 0,
                         [&] { return neumann::without_techniques(scene_, ranges, samples, seed_ + 2, watch_); });
 }
 

@@ -26,7 +26,7 @@ public:
     const Scene& scene() const { return scene_; }
     // Bounces 0 … `bounces` at least. All functions throw Stopped.
     std::shared_ptr<const BounceSeries> ours(int bounces);
-    std::shared_ptr<const std::vector<WrongTerms>> wrong(const Ranges& ranges);
+    std::shared_ptr<const std::vector<WrongTerms>> wrong(const Ranges& ranges, std::size_t begins = 0);
     int paths_a_pixel() const;  // samples of a pixel in wrong()
     std::shared_ptr<const std::vector<WrongPictures>> without_techniques(const Ranges& ranges);
 
@@ -37,10 +37,11 @@ private:
     template <class T>
     struct Made {
         Ranges ranges;
+        std::size_t begins;
         std::shared_ptr<const T> pictures;
     };
     template <class T, class Make>
-    std::shared_ptr<const T> find_or_make(std::vector<Made<T>>& all, const Ranges& ranges, const Make& make);
+    std::shared_ptr<const T> find_or_make(std::vector<Made<T>>& all, const Ranges& ranges, std::size_t begins, const Make& make);
 
     Scene scene_;
     std::optional<std::uint64_t> samples_;

@@ -43,8 +43,8 @@ bool counts_twice(Mistake mistake, int bounce) {
 // Follows paths, and adds up their contributions under each mistake.
 class WrongPaths {
 public:
-    WrongPaths(const Scene& scene, const std::vector<BounceRange>& ranges, std::vector<WrongTerms>& wrong)
-        : scene_(scene), ranges_(ranges), wrong_(wrong), lights_(scene.geometry, scene.emitters) {
+    WrongPaths(const Scene& scene, const std::vector<BounceRange>& ranges, std::size_t begins, std::vector<WrongTerms>& wrong)
+        : scene_(scene), ranges_(ranges), begins_(ranges.at(begins).first), wrong_(wrong), lights_(scene.geometry, scene.emitters) {
         for (std::uint32_t shape = 0; shape < scene.geometry.shapes().size(); ++shape)
             areas_.push_back(scene.emitters.is_emitter(shape) ? scene.geometry.area(shape) : 0.0);
         for (WrongTerms& w : wrong)
@@ -53,7 +53,7 @@ public:
                     {Image(scene.film.crop_width, scene.film.crop_height), Image(scene.film.crop_width, scene.film.crop_height)});
     }
 
-    // Sets the mean of the right picture in the first range, from a few samples; clamps are relative to it.
+    // Sets the mean of the right picture in the range in which limits begin, from a few samples; they are relative to it.
     void set_scale(double scale) { scale_ = scale; }
 
     void pixel(int x, int y, int samples, std::uint64_t seed) {
@@ -118,6 +118,7 @@ private:
 
     const Scene& scene_;
     const std::vector<BounceRange>& ranges_;
+    int begins_;  // the first bounce with roulette, or a limit
     std::vector<WrongTerms>& wrong_;
     LightSampler lights_;
     std::vector<double> areas_;  // of lamps, by shape
@@ -226,7 +227,7 @@ void WrongPaths::Walk::put(int bounce) {
         if (bounce < paths.ranges_[r].first || bounce > paths.ranges_[r].last) continue;
         for (std::size_t m = 0; m < now.size(); ++m) {
             Rgb brought = now[m];
-            if (paths.wrong_[m].mistake() == Mistake::clamped)
+            if (paths.wrong_[m].mistake() == Mistake::clamped && bounce >= paths.begins_)
                 if (const double limit = paths.wrong_[m].limit * paths.scale_, most = max_component(brought); most > limit)
                     brought *= limit / most;
             found[m * paths.ranges_.size() + r] += brought;
@@ -260,7 +261,7 @@ int WrongPaths::Walk::go(int column, int row, Sampler& sampler) {
     }
     put(0);
     bool had_diffuse = false;
-    const int last = paths.ranges_.back().last, first_roulette = std::max(paths.ranges_.front().first, 1);
+    const int last = paths.ranges_.back().last, first_roulette = std::max(paths.begins_, 1);
     int bounce = 1;
     for (; bounce <= last && !x.is_infinite(); ++bounce) {
         const SurfaceSide side = scene.materials.side(x, wo);
@@ -298,10 +299,10 @@ int WrongPaths::Walk::go(int column, int row, Sampler& sampler) {
 
 }  // namespace
 
-std::vector<WrongTerms> wrong_terms(const Scene& scene, const std::vector<BounceRange>& ranges, int samples, std::uint64_t seed,
-                                    const Watch& watch) {
+std::vector<WrongTerms> wrong_terms(const Scene& scene, const std::vector<BounceRange>& ranges, std::size_t begins, int samples,
+                                    std::uint64_t seed, const Watch& watch) {
     const auto run = [&](std::vector<WrongTerms>& wrong, int n, std::uint64_t with_seed, double scale) {
-        WrongPaths paths(scene, ranges, wrong);
+        WrongPaths paths(scene, ranges, begins, wrong);
         paths.set_scale(scale);
         std::atomic<bool> stopped = false;
         oneapi::tbb::parallel_for(0, scene.film.crop_height, [&](int y) {
@@ -313,8 +314,8 @@ std::vector<WrongTerms> wrong_terms(const Scene& scene, const std::vector<Bounce
     std::vector<WrongTerms> right = {{&mistake_kinds().front()}}, wrong = all_wrong();
     run(right, 4, seed + 1, 1.0);
     double sum = 0.0;
-    for (const Rgb& c : right[0].terms[0].mean.pixels) sum += max_component(c);
-    run(wrong, samples, seed, sum / static_cast<double>(right[0].terms[0].mean.pixels.size()));
+    for (const Rgb& c : right[0].terms[begins].mean.pixels) sum += max_component(c);
+    run(wrong, samples, seed, sum / static_cast<double>(right[0].terms[begins].mean.pixels.size()));
     return wrong;
 }
 

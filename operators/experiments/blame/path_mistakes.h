@@ -19,14 +19,14 @@ struct WrongTerms {
     const MistakeKind* kind;
     // Light samples and directions that hit lamps, or one of the two alone.
     DirectLight direct_light = DirectLight::mis;
-    double limit = 0.0;                    // for `clamped`: the limit in units of the mean of the first range
+    double limit = 0.0;                    // for `clamped`: the limit in units of the mean of the range in which it begins
     std::vector<PictureNoise> terms = {};  // for each of the ranges
 
     Mistake mistake() const { return kind->mistake; }
 };
 
-// Samples the pictures of all mistakes. Roulette and limits begin with the first bounce of `ranges`. Throws Stopped.
-std::vector<WrongTerms> wrong_terms(const Scene& scene, const std::vector<BounceRange>& ranges, int samples, std::uint64_t seed,
-                                    const Watch& watch = {});
+// Samples the pictures of all mistakes. Roulette and limits begin with `ranges[begins]`. Throws Stopped.
+std::vector<WrongTerms> wrong_terms(const Scene& scene, const std::vector<BounceRange>& ranges, std::size_t begins, int samples,
+                                    std::uint64_t seed, const Watch& watch = {});
 
 }  // namespace neumann

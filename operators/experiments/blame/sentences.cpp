@@ -27,6 +27,8 @@ std::string no_difference(const std::vector<TermVerdict>& terms) {
         terms.size(), widest);
 }
 
+bool refuted(const Suspect& suspect) { return suspect.p_of_all_that_is_left < 1e-6; }
+
 bool is_one(const BounceRange& bounces) { return bounces.first == bounces.last; }
 
 std::string named(const BounceRange& bounces) {
@@ -77,10 +79,16 @@ std::string which_bounce(const std::vector<TermVerdict>& terms, std::size_t firs
                        those_before(terms, first_wrong));
 }
 
+// Whether the second suspect may be the cause as well: about as likely, and neither a mere description nor refuted where the first
+// is not.
+bool is_rival(const Suspect& best, const Suspect& next) {
+    if (next.misfit - best.misfit >= clear_lead) return false;
+    return refuted(best) || (!refuted(next) && (best.is_fitted || !next.is_fitted));
+}
+
 std::string what_it_looks_like(const Suspect& best, const Suspect& next) {
-    return fmt::format("It looks as if {}{}{}.", best.words,
-                       best.p_of_what_is_left < 1e-6 ? ", which explains most but not all of it" : "",
-                       next.misfit - best.misfit < clear_lead ? fmt::format("; or {}", next.words) : "");
+    return fmt::format("It looks as if {}{}{}.", best.words, refuted(best) ? ", which explains most but not all of it" : "",
+                       is_rival(best, next) ? fmt::format("; or {}", next.words) : "");
 }
 
 std::string where_it_is(const ShapeShare& most, const Scene& scene) {

@@ -28,10 +28,10 @@ struct Suspect {
 };
 
 // The likeliest mistake of each kind, likeliest first; but mistakes that leave nothing unexplained, and are not fitted,
-// come before the others. The terms are explained together. `shapes`: the shape that a ray through the middle of each
-// pixel hits. Throws Stopped.
-std::vector<Suspect> find_suspects(ExpectedPictures& expected, const std::vector<ComparedTerm>& terms, bool are_sums,
-                                   const std::vector<std::uint32_t>& shapes);
+// come before the others. The terms are explained together, and `before`, the term before them, if it agrees, has to be left as it
+// is. `shapes`: the shape that a ray through the middle of each pixel hits. Throws Stopped.
+std::vector<Suspect> find_suspects(ExpectedPictures& expected, const ComparedTerm* before, const std::vector<ComparedTerm>& terms,
+                                   bool are_sums, const std::vector<std::uint32_t>& shapes);
 
 // The misfit of the terms if nothing is wrong.
 double misfit_of_none(const std::vector<ComparedTerm>& terms);
