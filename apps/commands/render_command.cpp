@@ -139,6 +139,7 @@ std::shared_ptr<Rendering> render(const RenderRequest& request, std::shared_ptr<
 
 int render_command(const RenderRequest& given) {
     RenderRequest request = given;
+    if (request.touch) request.files.emplace_back("touch");
     // This throws for options that exclude each other, before the scene is read.
     const bool fields = has_fields(make_method(request.method));
     if (request.goal.part && (fields || !request.goal.samples))
@@ -172,6 +173,8 @@ int render_command(const RenderRequest& given) {
 
     const auto scene = std::make_shared<const Scene>(read_scene(request.scene));
     for (const Vec2& p : paths.pixels) pixel_number(scene->film, static_cast<int>(p.x), static_cast<int>(p.y), "--paths");
+    // Before the render, which must not be lost because a scene cannot be touched.
+    const auto separated = files.touch ? std::make_shared<const SeparatedScene>(separate(*scene, {}, watch)) : nullptr;
     catch_interrupts();  // only now, because nothing was written before
     std::optional<OutputFolder> folder(std::in_place, request.output, "render");
     std::optional<RenderState> state = read_state(request, *scene, watch.tell);
@@ -215,6 +218,7 @@ int render_command(const RenderRequest& given) {
     line.clear();
     rendering->seconds += reading_seconds;
     rendering->paths = paths;
+    rendering->separated = separated;
     if (const Processes* const processes = launched()) {
         rendering->processes = processes->size();
         rendering->traffic = processes->traffic();

@@ -7,9 +7,12 @@
 #include "apps/output/files/ways_files.h"
 #include "apps/output/pages/explorer_page.h"
 #include "apps/output/pages/paths_json.h"
+#include "apps/output/pages/touch_page.h"
 #include "apps/output/run_json.h"
 #include "core/base/error.h"
 #include "core/base/stopwatch.h"
+
+#include <filesystem>
 
 namespace neumann {
 
@@ -72,6 +75,12 @@ WrittenRendering write_rendering(const Rendering& rendering, OutputFolder& folde
             }
         data = explorer_data({&explored});
         folder.write("index.html", explorer_page(data));
+    }
+    if (files.touch) {
+        const auto separated =
+            rendering.separated ? rendering.separated : std::make_shared<const SeparatedScene>(separate(*rendering.scene, {}));
+        const std::string name = std::filesystem::path(rendering.request.scene.path).stem().string();
+        folder.write("touch.html", touch_page(*separated, series, name));
     }
     folder.write("run.json", json_text(json, 2) + "\n");
     folder.commit();

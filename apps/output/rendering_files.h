@@ -6,6 +6,7 @@
 #include "apps/requests/chosen_pixels.h"
 #include "apps/requests/render_request.h"
 #include "core/base/processes/processes.h"
+#include "operators/fields/matrix/separated_scene.h"
 #include "operators/render/methods/bounce_series.h"
 
 #include <nlohmann/json.hpp>
@@ -22,7 +23,8 @@ struct Rendering {
     BounceSeries series;
     double seconds = 0.0;  // total time before writing
     ChosenFiles files = {};
-    ChosenPixels paths = {};  // the paths that the page shows
+    ChosenPixels paths = {};                                    // the paths that the page shows
+    std::shared_ptr<const SeparatedScene> separated = nullptr;  // for touch.html; made when it is written if it is not there
     // The number of processes that rendered it together, and the traffic of the first one.
     int processes = 1;
     Processes::Traffic traffic = {};
@@ -39,7 +41,8 @@ struct WrittenRendering {
     std::string why_no_paths;  // the reason why a page that should have paths has none; empty otherwise
 };
 
-// Writes the chosen files and commits them. Throws RunError if not everything can be written.
+// Writes the chosen files and commits them. Throws RunError if not everything can be written, and for touch.html as separate()
+// does.
 WrittenRendering write_rendering(const Rendering& rendering, OutputFolder& folder);
 
 // The data that a page shows of a render whose files are not written.

@@ -12,12 +12,13 @@ namespace neumann {
 
 namespace {
 
-constexpr std::array<std::pair<const char*, bool ChosenFiles::*>, 7> groups{{{"pictures", &ChosenFiles::pictures},
+constexpr std::array<std::pair<const char*, bool ChosenFiles::*>, 8> groups{{{"pictures", &ChosenFiles::pictures},
                                                                              {"tables", &ChosenFiles::tables},
                                                                              {"sheets", &ChosenFiles::sheets},
                                                                              {"strips", &ChosenFiles::strips},
                                                                              {"page", &ChosenFiles::page},
                                                                              {"layers", &ChosenFiles::layers},
+                                                                             {"touch", &ChosenFiles::touch},
                                                                              {"figures", &ChosenFiles::figures}}};
 
 }  // namespace
@@ -42,7 +43,7 @@ const std::vector<std::string>& page_file_groups() {
 }
 
 ChosenFiles choose_files(const std::vector<std::string>& names, bool white) {
-    ChosenFiles files{false, false, false, false, false, false, false, white};
+    ChosenFiles files{false, false, false, false, false, false, false, false, white};
     for (const std::string& wanted : names) {
         const auto found = std::ranges::find(groups, wanted, [](const auto& group) { return std::string(group.first); });
         if (found == groups.end())

@@ -13,12 +13,13 @@ struct ChosenFiles {
     bool strips = true;    // strip-terms.png …
     bool page = true;      // index.html
     bool layers = false;   // layers.exr, on request
+    bool touch = false;    // touch.html, on request
     bool figures = false;  // figure-decay.svg, figure-decay.pdf, series.tex, on request
     bool white = false;    // sheets and strips have a white background instead of a black one
 };
 
-// The groups that are written by default: "pictures", "tables", "sheets", "strips", "page"; and all, with "layers" and
-// "figures".
+// The groups that are written by default: "pictures", "tables", "sheets", "strips", "page"; and all, with "layers",
+// "touch" and "figures".
 const std::vector<std::string>& file_groups();
 const std::vector<std::string>& all_file_groups();
 // The groups that `neumann page` makes: "sheets", "strips", "page".

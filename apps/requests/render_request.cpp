@@ -95,6 +95,9 @@ std::vector<Option<R>> all_options() {
         threads_option(&R::threads),
         definitions_option(&R::scene),
         lenient_option(&R::scene),
+        flag<R>("touch", "Write touch.html, too: a page on which materials and lamps are changed, and all bounces follow",
+                &R::touch)
+            .of_this_run(),
         quiet_option(&R::quiet),
         json_option(&R::json, "Print run.json")};
     all.insert(all.end(), others.begin(), others.end());

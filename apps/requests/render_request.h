@@ -28,6 +28,7 @@ struct RenderRequest {
     std::string resume;  // the folder of a render that this one continues; other options are as in that render
     int threads = 0;     // 0: all
     bool quiet = false, json = false;
+    bool touch = false;                 // adds "touch" to `files`
     std::optional<std::uint16_t> live;  // the port of a page that shows the render meanwhile; 0: any free port
     std::string tev;                    // HOST:PORT of a tev that shows the pictures meanwhile, or empty
     std::string command_line;           // as typed, for run.json

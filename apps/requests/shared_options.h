@@ -85,7 +85,7 @@ template <class Request>
 Option<Request> files_option(std::vector<std::string> Request::*files) {
     return option<Request>("files", fmt::format("WHAT:{{{}}}", fmt::join(all_file_groups(), ",")),
                            "What is written beside run.json; default all of these but layers, which is one file of all "
-                           "pictures, and figures, which are for papers",
+                           "pictures, figures, which are for papers, and touch",
                            files, one_of(all_file_groups()))
         .with_commas();
 }

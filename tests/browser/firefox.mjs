@@ -126,6 +126,14 @@ assert.equal(await ended, 0);
 await until(`$("so-far").textContent.startsWith("Finished.")`);
 assert.equal(await evaluate(`all[0].run.samples.per_pixel`), JSON.parse(readFileSync(at("live/run.json"))).samples.per_pixel);
 
+// R and T that one can touch: the room without its lamp is dark.
+neumann("render", scene, "-D", "res=24", "-n", "2", "--spp", "16", "--touch", "--files", "tables", "-o", at("t"), "--quiet");
+await open(at("t/touch.html"));
+await until(`window.touched !== undefined`);
+assert.ok(await evaluate(`touched.compute().means[2] > 0`));
+await evaluate(`(touched.state.room.lamps[0] = [0, 0, 0], touched.frame(), true)`);
+assert.deepEqual(await evaluate(`touched.compute().means.filter(m => m !== 0)`), []);
+
 // A study: the verdict, the crops and the plots.
 await open(at("s/index.html"));
 const study = JSON.parse(readFileSync(at("s/study.json")));

@@ -212,4 +212,29 @@ TEST_F(RenderFiles, JsonPrintsRunJson) {
     EXPECT_TRUE(std::isinf(picture("a", "bounce_000.exr").standard_error.at(0, 0).r));
 }
 
+// By --touch, beside the other files, and by --files alone. What cannot be touched is refused before it is rendered.
+TEST_F(RenderFiles, ThePageThatOneCanTouch) {
+    const std::string scene = R"(<scene version="3.0.0"><default name="kind" value="diffuse"/>
+<sensor type="perspective"><film type="hdrfilm"><integer name="width" value="8"/><integer name="height" value="8"/></film>
+<transform name="to_world"><lookat origin="0, 0, 3" target="0, 0, 0" up="0, 1, 0"/></transform></sensor>
+<bsdf type="$kind" id="wall"/>
+<shape type="rectangle"><ref id="wall"/></shape>
+<shape type="rectangle"><transform name="to_world"><translate z="-2"/></transform>
+<emitter type="area"><rgb name="radiance" value="1"/></emitter></shape>
+</scene>)";
+    write("touch.xml", scene);
+    const Finished done = run({"render", "touch.xml", "-n", "2", "--spp", "4", "--quiet", "--touch", "-o", "a"});
+    EXPECT_EQ(done.err, "");
+    EXPECT_TRUE(names("a").contains("touch.html") && names("a").contains("index.html"));
+    render("touch.xml", "b", {"-n", "2", "--spp", "4", "--quiet", "--files", "touch"});
+    EXPECT_EQ(names("b"), (Names{"run.json", "touch.html"}));
+    const Finished refused =
+        run({"render", "touch.xml", "-n", "2", "--spp", "1000000", "--quiet", "--touch", "-o", "c", "-D", "kind=conductor"});
+    EXPECT_EQ(refused.exit_code, 2);
+    EXPECT_EQ(refused.err,
+              "touch.xml:5:1: bsdf 'wall' of shape 'rectangle' is not diffuse, and R is a number for each patch only where "
+              "all materials are\n");
+    EXPECT_FALSE(std::filesystem::exists(path("c")));
+}
+
 }  // namespace neumann::render_files_test

@@ -115,6 +115,8 @@ class Render(Case):
             if name.endswith((".exr", ".png", ".gif")):
                 self.assertTrue(filecmp.cmp(self.folder / "out" / name, self.folder / "saved" / name, shallow=False), name)
         self.expect_same(series, neumann.read(self.folder / "saved"))
+        series.save(self.folder / "touched", files=["touch"])
+        self.assertEqual({p.name for p in (self.folder / "touched").iterdir()}, {"run.json", "touch.html"})
         series.save(self.folder / "saved", files=["tables"])
         self.assertEqual({p.name for p in (self.folder / "saved").iterdir()}, {"run.json", "series.csv", "convergence.csv"})
         with self.assertRaises(neumann.InputError):

@@ -240,7 +240,8 @@ class BounceSeries:
 
     def save(self, folder: Union[str, "PathLike[str]"], files: Optional[Sequence[str]] = None) -> None:
         """Writes the files of ``neumann render -o folder``: EXR files, tables, run.json, contact sheet, and the explorer,
-        index.html. files: the groups of ``--files`` that are written, such as ("pictures", "tables"); default all.
+        index.html. files: the groups of ``--files`` that are written, such as ("pictures", "tables"); default all. ("touch",) writes
+        touch.html, and raises InputError if a material is not diffuse.
 
         The folder is written as a whole or not at all. Raises InputError if the folder cannot be written, and RunError if a disk is
         full."""
