@@ -40,7 +40,7 @@ TEST(WhatIf, WithoutAMistakeIsTheWalk) {
         goal.samples = 4096;
         goal.only_pictures = true;
         const BounceSeries walk = render(scene, method::Walk{}, goal);
-        const std::vector<WrongTerms> all = wrong_terms(scene, {{0, 0}, {1, 1}, {2, 2}, {3, 3}}, 0, 1024, 1);
+        const std::vector<WrongTerms> all = wrong_terms(scene, {.ranges = {{0, 0}, {1, 1}, {2, 2}, {3, 3}}}, 1024, 1);
         const WrongTerms& none = all.front();
         ASSERT_EQ(none.mistake(), Mistake::none);
         for (std::size_t i = 0; i <= 3; ++i) {
@@ -62,7 +62,7 @@ TEST(WhatIf, TheTwoTechniquesShareTheLight) {
     maker.parts.camera = {
         .to_world = Mat4({-1, 0, 0, 0}, {0, 0, 1, 0}, {0, 1, 0, 0}, {0, -0.95, 0, 1}), .fov = 0.5 * pi, .near_clip = 1e-3};
     maker.parts.film = {16, 16, 0, 0, 16, 16};
-    const std::vector<WrongTerms> all = wrong_terms(maker.make(), {{1, 1}, {2, 2}}, 0, 16, 1);
+    const std::vector<WrongTerms> all = wrong_terms(maker.make(), {.ranges = {{1, 1}, {2, 2}}}, 16, 1);
     const auto mean = [&](Mistake mistake, std::size_t i) {
         const auto found = std::find_if(all.begin(), all.end(), [&](const WrongTerms& w) { return w.mistake() == mistake; });
         return mean_of_channels(found->terms[i].mean);

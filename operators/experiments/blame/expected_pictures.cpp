@@ -1,5 +1,6 @@
 #include "operators/experiments/blame/expected_pictures.h"
 
+#include "operators/experiments/blame/joined_pixels.h"
 #include "operators/render/methods/render.h"
 
 #include <algorithm>
@@ -35,33 +36,36 @@ std::shared_ptr<const BounceSeries> ExpectedPictures::ours(int bounces) {
     return ours_;
 }
 
-int ExpectedPictures::paths_a_pixel() const {
+int ExpectedPictures::paths_a_pixel(int factor) const {
     const double pixels = static_cast<double>(scene_.film.crop_width) * scene_.film.crop_height;
+    const double fewest = std::max(16.0 / (factor * factor), 1.0);
     return static_cast<int>(
-        std::clamp(most_paths / pixels, 16.0, static_cast<double>(std::max<std::uint64_t>(ours_ ? ours_->samples : 0, 16))));
+        std::clamp(most_paths / pixels, fewest, static_cast<double>(std::max<std::uint64_t>(ours_ ? ours_->samples : 0, 16))));
 }
 
 template <class T, class Make>
-std::shared_ptr<const T> ExpectedPictures::find_or_make(std::vector<Made<T>>& all, const Ranges& ranges, std::size_t begins,
-                                                        const Make& make) {
-    const auto known =
-        std::ranges::find_if(all, [&](const Made<T>& made) { return made.ranges == ranges && made.begins == begins; });
+std::shared_ptr<const T> ExpectedPictures::find_or_make(std::vector<Made<T>>& all, const WrongPaths& wanted, const Make& make) {
+    const auto known = std::ranges::find(all, wanted, &Made<T>::of);
     if (known != all.end()) return known->pictures;
     if (!keeps_all_) all.clear();
-    all.push_back({ranges, begins, std::make_shared<const T>(make())});
+    all.push_back({wanted, std::make_shared<const T>(make())});
     return all.back().pictures;
 }
 
-std::shared_ptr<const std::vector<WrongTerms>> ExpectedPictures::wrong(const Ranges& ranges, std::size_t begins) {
-    return find_or_make(wrong_, ranges, begins,
-                        [&] { return wrong_terms(scene_, ranges, begins, paths_a_pixel(), seed_ + 1, watch_); });
+std::shared_ptr<const std::vector<WrongTerms>> ExpectedPictures::wrong(const WrongPaths& wanted) {
+    return find_or_make(wrong_, wanted,
+                        [&] { return wrong_terms(scene_, wanted, paths_a_pixel(wanted.factor), seed_ + 1, watch_); });
 }
 
-std::shared_ptr<const std::vector<WrongPictures>> ExpectedPictures::without_techniques(const Ranges& ranges) {
+std::shared_ptr<const std::vector<WrongPictures>> ExpectedPictures::without_techniques(const Ranges& ranges, int factor) {
     // A bidirectional path takes several times as long.
-    const auto samples = static_cast<std::uint64_t>(paths_a_pixel() / 4);
-    return find_or_make(without_techniques_, ranges, 0,
-                        [&] { return neumann::without_techniques(scene_, ranges, samples, seed_ + 2, watch_); });
+    const auto samples = static_cast<std::uint64_t>(std::max(paths_a_pixel(factor) / 4, 1));
+    return find_or_make(without_techniques_, {.ranges = ranges, .factor = factor}, [&] {
+        std::vector<WrongPictures> all = neumann::without_techniques(scene_, ranges, samples, seed_ + 2, watch_);
+        for (WrongPictures& wrong : all)
+            for (PictureNoise& picture : wrong.terms) picture = joined(picture, factor);
+        return all;
+    });
 }
 
 }  // namespace neumann

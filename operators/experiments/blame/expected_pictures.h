@@ -26,9 +26,10 @@ public:
     const Scene& scene() const { return scene_; }
     // Bounces 0 … `bounces` at least. All functions throw Stopped.
     std::shared_ptr<const BounceSeries> ours(int bounces);
-    std::shared_ptr<const std::vector<WrongTerms>> wrong(const Ranges& ranges, std::size_t begins = 0);
-    int paths_a_pixel() const;  // samples of a pixel in wrong()
-    std::shared_ptr<const std::vector<WrongPictures>> without_techniques(const Ranges& ranges);
+    std::shared_ptr<const std::vector<WrongTerms>> wrong(const WrongPaths& wanted);
+    int paths_a_pixel(int factor) const;  // samples of a pixel of the film in wrong()
+    // Their pixels are joined by `factor`.
+    std::shared_ptr<const std::vector<WrongPictures>> without_techniques(const Ranges& ranges, int factor);
 
     // Keeps all pictures of mistakes for other renderers. By default only those needed last are kept, as they are large.
     void keep_all() { keeps_all_ = true; }
@@ -36,12 +37,11 @@ public:
 private:
     template <class T>
     struct Made {
-        Ranges ranges;
-        std::size_t begins;
+        WrongPaths of;
         std::shared_ptr<const T> pictures;
     };
     template <class T, class Make>
-    std::shared_ptr<const T> find_or_make(std::vector<Made<T>>& all, const Ranges& ranges, std::size_t begins, const Make& make);
+    std::shared_ptr<const T> find_or_make(std::vector<Made<T>>& all, const WrongPaths& wanted, const Make& make);
 
     Scene scene_;
     std::optional<std::uint64_t> samples_;

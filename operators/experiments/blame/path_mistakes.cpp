@@ -6,7 +6,6 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <optional>
 
@@ -17,13 +16,15 @@ namespace {
 constexpr double clamp_limits[] = {0.5, 0.7, 1.0, 1.4, 2.0, 2.8, 4.0, 5.6, 8.0, 11.0, 16.0, 22.0, 32.0};
 constexpr double most_survival = 0.95;
 
-std::vector<WrongTerms> all_wrong() {
+std::vector<WrongTerms> all_wrong(bool (*is_wanted)(Mistake)) {
     std::vector<WrongTerms> all;
-    for (const MistakeKind& kind : mistake_kinds())
+    for (const MistakeKind& kind : mistake_kinds()) {
+        if (!is_wanted(kind.mistake)) continue;
         if (kind.mistake == Mistake::clamped)
             for (const double limit : clamp_limits) all.push_back({&kind, DirectLight::mis, limit, {}});
         else
             for (const DirectLight direct_light : kind.direct_light) all.push_back({&kind, direct_light, 0.0, {}});
+    }
     return all;
 }
 
@@ -41,21 +42,35 @@ bool counts_twice(Mistake mistake, int bounce) {
 }
 
 // Follows paths, and adds up their contributions under each mistake.
-class WrongPaths {
+class PathsOfAll {
 public:
-    WrongPaths(const Scene& scene, const std::vector<BounceRange>& ranges, std::size_t begins, std::vector<WrongTerms>& wrong)
-        : scene_(scene), ranges_(ranges), begins_(ranges.at(begins).first), wrong_(wrong), lights_(scene.geometry, scene.emitters) {
+    PathsOfAll(const Scene& scene, const WrongPaths& wanted, std::vector<WrongTerms>& wrong)
+        : scene_(scene),
+          ranges_(wanted.ranges),
+          begins_(wanted.ranges.at(wanted.begins).first),
+          factor_(wanted.factor),
+          wrong_(wrong),
+          lights_(scene.geometry, scene.emitters) {
         for (std::uint32_t shape = 0; shape < scene.geometry.shapes().size(); ++shape)
             areas_.push_back(scene.emitters.is_emitter(shape) ? scene.geometry.area(shape) : 0.0);
         for (WrongTerms& w : wrong)
-            for (std::size_t r = 0; r < ranges.size(); ++r)
-                w.terms.push_back(
-                    {Image(scene.film.crop_width, scene.film.crop_height), Image(scene.film.crop_width, scene.film.crop_height)});
+            for (std::size_t r = 0; r < ranges_.size(); ++r)
+                w.terms.push_back({Image(columns(), rows()), Image(columns(), rows())});
     }
 
     // Sets the mean of the right picture in the range in which limits begin, from a few samples; they are relative to it.
     void set_scale(double scale) { scale_ = scale; }
 
+    int columns() const { return (scene_.film.crop_width + factor_ - 1) / factor_; }
+    int rows() const { return (scene_.film.crop_height + factor_ - 1) / factor_; }
+    void row(int y, int samples, std::uint64_t seed, const Watch& watch) {
+        const int low = std::min((y + 1) * factor_, scene_.film.crop_height);
+        for (int v = y * factor_; v < low; ++v)
+            for (int u = 0; u < scene_.film.crop_width && !watch.stop(); ++u) pixel(u, v, samples, seed);
+    }
+
+private:
+    // Adds a pixel of the film to the joined one.
     void pixel(int x, int y, int samples, std::uint64_t seed) {
         const auto pixel = static_cast<std::uint32_t>(y * scene_.film.crop_width + x);
         Sampler sampler(seed, pixel);
@@ -69,19 +84,21 @@ public:
                 squares[i] += walk.found[i] * walk.found[i];
             }
         }
-        const double n = samples;
+        const int across = std::min(factor_, scene_.film.crop_width - x / factor_ * factor_),
+                  down = std::min(factor_, scene_.film.crop_height - y / factor_ * factor_);
+        const double n = samples, pixels = static_cast<double>(across) * down;
         for (std::size_t m = 0; m < wrong_.size(); ++m)
             for (std::size_t r = 0; r < ranges_.size(); ++r) {
                 const Rgb mean = sums[m * ranges_.size() + r] / n;
-                wrong_[m].terms[r].mean.at(x, y) = mean;
-                wrong_[m].terms[r].variance.at(x, y) =
-                    glm::max(squares[m * ranges_.size() + r] / n - mean * mean, 0.0) / std::max(n - 1.0, 1.0);
+                PictureNoise& of = wrong_[m].terms[r];
+                of.mean.at(x / factor_, y / factor_) += mean / pixels;
+                of.variance.at(x / factor_, y / factor_) +=
+                    glm::max(squares[m * ranges_.size() + r] / n - mean * mean, 0.0) / (std::max(n - 1.0, 1.0) * pixels * pixels);
             }
     }
 
-private:
     struct Walk {
-        explicit Walk(const WrongPaths& paths)
+        explicit Walk(const PathsOfAll& paths)
             : paths(paths),
               factor(paths.wrong_.size()),
               survived(paths.wrong_.size()),
@@ -102,7 +119,7 @@ private:
         void mirror();
         void go_on(const NextDirection& next);
 
-        const WrongPaths& paths;
+        const PathsOfAll& paths;
         // By mistake: the factors of the path so far, and the contributions to this bounce and to the next.
         std::vector<Rgb> factor;
         std::vector<double> survived;  // the probability with which Russian roulette let the path go on
@@ -119,13 +136,14 @@ private:
     const Scene& scene_;
     const std::vector<BounceRange>& ranges_;
     int begins_;  // the first bounce with roulette, or a limit
+    int factor_;
     std::vector<WrongTerms>& wrong_;
     LightSampler lights_;
     std::vector<double> areas_;  // of lamps, by shape
     double scale_ = 1.0;
 };
 
-LampSample WrongPaths::sample_lamp(const SurfacePoint& x, Sampler& sampler) const {
+LampSample PathsOfAll::sample_lamp(const SurfacePoint& x, Sampler& sampler) const {
     const Vec2 u = sampler.next2();
     LampSample s;
     if (!lights_.finds_even_points()) {
@@ -147,7 +165,7 @@ LampSample WrongPaths::sample_lamp(const SurfacePoint& x, Sampler& sampler) cons
     return s;
 }
 
-void WrongPaths::Walk::sample_lamp(const SurfaceSide& side, const SurfacePoint& x, const Vec3& wo, const Rgb& beta, int bounce,
+void PathsOfAll::Walk::sample_lamp(const SurfaceSide& side, const SurfacePoint& x, const Vec3& wo, const Rgb& beta, int bounce,
                                    Sampler& sampler) {
     const LampSample s = paths.sample_lamp(x, sampler);
     if (!(s.pdf > 0.0) || is_black(s.light)) return;
@@ -173,7 +191,7 @@ void WrongPaths::Walk::sample_lamp(const SurfaceSide& side, const SurfacePoint& 
     }
 }
 
-void WrongPaths::Walk::hit(const SurfacePoint& x, const Vec3& wo, const Rgb& beta, double pdf, double pdf_of_lamp, int bounce,
+void PathsOfAll::Walk::hit(const SurfacePoint& x, const Vec3& wo, const Rgb& beta, double pdf, double pdf_of_lamp, int bounce,
                            bool had_diffuse) {
     const Rgb front = paths.scene_.emitters.emitted(x, wo), back = is_black(front) ? paths.emitted_behind(x) : Rgb(0.0);
     if (is_black(front) && is_black(back)) return;
@@ -192,7 +210,7 @@ void WrongPaths::Walk::hit(const SurfacePoint& x, const Vec3& wo, const Rgb& bet
 }
 
 // The walk's own throughput, with the mistake, decides: beta times the factors of survivors, whose probability is in `factor`.
-void WrongPaths::Walk::play_roulette(const Rgb& beta, const Rgb& albedo, const std::optional<Rgb>& albedo_before) {
+void PathsOfAll::Walk::play_roulette(const Rgb& beta, const Rgb& albedo, const std::optional<Rgb>& albedo_before) {
     for (std::size_t m = 0; m < factor.size(); ++m) {
         const MistakeKind& kind = *paths.wrong_[m].kind;
         const bool is_before = kind.survival == Survival::by_reflectance_before;
@@ -206,23 +224,23 @@ void WrongPaths::Walk::play_roulette(const Rgb& beta, const Rgb& albedo, const s
     }
 }
 
-void WrongPaths::Walk::reflect(const Reflection& reflection) {
+void PathsOfAll::Walk::reflect(const Reflection& reflection) {
     for (std::size_t m = 0; m < factor.size(); ++m)
         if (const auto f = paths.wrong_[m].kind->reflection) factor[m] *= f(reflection);
 }
 
-void WrongPaths::Walk::mirror() {
+void PathsOfAll::Walk::mirror() {
     factor = arrived;
     for (std::size_t m = 0; m < factor.size(); ++m)
         if (paths.wrong_[m].mistake() == Mistake::no_mirrors) factor[m] = Rgb(0.0);
 }
 
-void WrongPaths::Walk::go_on(const NextDirection& next) {
+void PathsOfAll::Walk::go_on(const NextDirection& next) {
     for (std::size_t m = 0; m < factor.size(); ++m)
         if (const auto f = paths.wrong_[m].kind->next_direction) factor[m] *= f(next);
 }
 
-void WrongPaths::Walk::put(int bounce) {
+void PathsOfAll::Walk::put(int bounce) {
     for (std::size_t r = 0; r < paths.ranges_.size(); ++r) {
         if (bounce < paths.ranges_[r].first || bounce > paths.ranges_[r].last) continue;
         for (std::size_t m = 0; m < now.size(); ++m) {
@@ -237,14 +255,14 @@ void WrongPaths::Walk::put(int bounce) {
     std::fill(later.begin(), later.end(), Rgb(0.0));
 }
 
-void WrongPaths::Walk::follow(int column, int row, Sampler& sampler) {
+void PathsOfAll::Walk::follow(int column, int row, Sampler& sampler) {
     std::fill(factor.begin(), factor.end(), Rgb(1.0));
     std::fill(survived.begin(), survived.end(), 1.0);
     for (std::vector<Rgb>* sum : {&now, &later, &found}) std::fill(sum->begin(), sum->end(), Rgb(0.0));
     put(go(column, row, sampler));
 }
 
-int WrongPaths::Walk::go(int column, int row, Sampler& sampler) {
+int PathsOfAll::Walk::go(int column, int row, Sampler& sampler) {
     const Scene& scene = paths.scene_;
     const CameraSample camera = sample_camera(scene, scene.film.crop_x + column, scene.film.crop_y + row, sampler);
     const CameraRay& ray = camera.ray;
@@ -299,23 +317,20 @@ int WrongPaths::Walk::go(int column, int row, Sampler& sampler) {
 
 }  // namespace
 
-std::vector<WrongTerms> wrong_terms(const Scene& scene, const std::vector<BounceRange>& ranges, std::size_t begins, int samples,
-                                    std::uint64_t seed, const Watch& watch) {
+std::vector<WrongTerms> wrong_terms(const Scene& scene, const WrongPaths& wanted, int samples, std::uint64_t seed,
+                                    const Watch& watch) {
     const auto run = [&](std::vector<WrongTerms>& wrong, int n, std::uint64_t with_seed, double scale) {
-        WrongPaths paths(scene, ranges, begins, wrong);
+        PathsOfAll paths(scene, wanted, wrong);
         paths.set_scale(scale);
-        std::atomic<bool> stopped = false;
-        oneapi::tbb::parallel_for(0, scene.film.crop_height, [&](int y) {
-            if (stopped || watch.stop()) stopped = true;
-            for (int x = 0; x < scene.film.crop_width && !stopped; ++x) paths.pixel(x, y, n, with_seed);
-        });
-        if (stopped) throw Stopped();
+        oneapi::tbb::parallel_for(0, paths.rows(), [&](int y) { paths.row(y, n, with_seed, watch); });
+        if (watch.stop()) throw Stopped();
     };
-    std::vector<WrongTerms> right = {{&mistake_kinds().front()}}, wrong = all_wrong();
+    std::vector<WrongTerms> right = {{&mistake_kinds().front()}}, wrong = all_wrong(wanted.is_wanted);
     run(right, 4, seed + 1, 1.0);
     double sum = 0.0;
-    for (const Rgb& c : right[0].terms[begins].mean.pixels) sum += max_component(c);
-    run(wrong, samples, seed, sum / static_cast<double>(right[0].terms[begins].mean.pixels.size()));
+    const Image& mean = right[0].terms[wanted.begins].mean;
+    for (const Rgb& c : mean.pixels) sum += max_component(c);
+    run(wrong, samples, seed, sum / static_cast<double>(mean.pixels.size()));
     return wrong;
 }
 

@@ -25,8 +25,18 @@ struct WrongTerms {
     Mistake mistake() const { return kind->mistake; }
 };
 
-// Samples the pictures of all mistakes. Roulette and limits begin with `ranges[begins]`. Throws Stopped.
-std::vector<WrongTerms> wrong_terms(const Scene& scene, const std::vector<BounceRange>& ranges, std::size_t begins, int samples,
-                                    std::uint64_t seed, const Watch& watch = {});
+// What is sampled. Roulette and limits begin with `ranges[begins]`; pixels are joined by `factor` (joined_pixels.h).
+struct WrongPaths {
+    std::vector<BounceRange> ranges;
+    std::size_t begins = 0;
+    int factor = 1;
+    bool (*is_wanted)(Mistake) = [](Mistake) { return true; };
+
+    bool operator==(const WrongPaths&) const = default;
+};
+
+// Samples the pictures of the mistakes that are wanted, `samples` paths for each pixel of the film. Throws Stopped.
+std::vector<WrongTerms> wrong_terms(const Scene& scene, const WrongPaths& wanted, int samples, std::uint64_t seed,
+                                    const Watch& watch = {});
 
 }  // namespace neumann

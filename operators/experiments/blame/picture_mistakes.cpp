@@ -2,6 +2,7 @@
 
 #include "core/base/vec.h"
 #include "core/sampling/warp.h"
+#include "operators/experiments/blame/joined_pixels.h"
 
 #include <fmt/format.h>
 
@@ -73,13 +74,15 @@ double from_srgb(double v) { return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.0
 // Applies a function of pictures to the terms: to sums, whose differences are taken, or to the terms themselves.
 class Terms {
 public:
-    Terms(const std::vector<ComparedTerm>& terms, bool are_sums) : terms_(terms), are_sums_(are_sums) {}
+    Terms(const std::vector<ComparedTerm>& terms, bool are_sums, int factor)
+        : terms_(terms), are_sums_(are_sums), factor_(factor) {}
 
     WrongPictures linear(const std::string& name, const std::string& words,
                          const std::function<Image(const Image&, Quantity)>& f) const {
         WrongPictures wrong{name, words, {}};
         for (const ComparedTerm& t : terms_)
-            wrong.terms.push_back({f(t.ours.mean, Quantity::means), f(t.ours.variance, Quantity::variances)});
+            wrong.terms.push_back(
+                joined(PictureNoise{f(t.ours.mean, Quantity::means), f(t.ours.variance, Quantity::variances)}, factor_));
         return wrong;
     }
     WrongPictures smoothed(const std::string& name, const std::string& words,
@@ -111,7 +114,7 @@ public:
                 }
                 return v;
             });
-            wrong.terms.push_back({std::move(mean), std::move(variance)});
+            wrong.terms.push_back(joined(PictureNoise{std::move(mean), std::move(variance)}, factor_));
         }
         return wrong;
     }
@@ -119,6 +122,7 @@ public:
 private:
     const std::vector<ComparedTerm>& terms_;
     bool are_sums_;
+    int factor_;
 };
 
 // Weighted least squares in which outliers weigh less, from the ratio of the sums on. `pixels`: those that count.
@@ -239,8 +243,8 @@ double fitted_factor(const PictureNoise& theirs, const PictureNoise& ours) {
 
 PictureNoise scaled(const PictureNoise& picture, double factor) { return scaled_evenly(picture, factor); }
 
-std::vector<WrongPictures> moved_pictures(const std::vector<ComparedTerm>& terms, bool are_sums) {
-    const Terms mistakes(terms, are_sums);
+std::vector<WrongPictures> moved_pictures(const std::vector<ComparedTerm>& terms, bool are_sums, int factor) {
+    const Terms mistakes(terms, are_sums, factor);
     std::vector<WrongPictures> all;
     all.push_back(mistakes.linear("flipped_x", "the picture is mirrored left to right",
                                   [](const Image& p, Quantity) { return flipped(p, true, false); }));
@@ -266,9 +270,8 @@ std::vector<WrongPictures> moved_pictures(const std::vector<ComparedTerm>& terms
     return all;
 }
 
-std::vector<WrongPictures> wrong_pictures(const std::vector<ComparedTerm>& terms, bool are_sums,
-                                          const std::vector<std::uint32_t>& shapes) {
-    std::vector<WrongPictures> all = moved_pictures(terms, are_sums);
+std::vector<WrongPictures> scaled_pictures(const std::vector<ComparedTerm>& terms, const std::vector<std::uint32_t>& shapes) {
+    std::vector<WrongPictures> all;
     WrongPictures black{"missing", "there is no light at all", {}};
     for (const ComparedTerm& t : terms)
         black.terms.push_back({Image(t.ours.mean.width, t.ours.mean.height), Image(t.ours.mean.width, t.ours.mean.height)});

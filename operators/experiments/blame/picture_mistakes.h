@@ -32,11 +32,12 @@ struct ComparedTerm {
     Image our_sum_before, our_sum;         // Σ K^k Le over the bounces before the range, and up to its end
 };
 
-// The pictures of all such mistakes. `are_sums`: the other renderer wrote pictures with all bounces up to a limit, so that its
-// mistakes apply to sums. `shapes`: the shape that a ray through the middle of each pixel hits, for factors that differ by shape.
-std::vector<WrongPictures> wrong_pictures(const std::vector<ComparedTerm>& terms, bool are_sums,
-                                          const std::vector<std::uint32_t>& shapes);
-// Only those mistakes that change the places and the encoding of pixels. They have no parameters but a shift.
-std::vector<WrongPictures> moved_pictures(const std::vector<ComparedTerm>& terms, bool are_sums);
+// The pictures of those mistakes that change the places and the encoding of pixels, which have no parameters but a shift, their
+// pixels joined by `factor` after that. `are_sums`: the other renderer wrote pictures with all bounces up to a limit, so that its
+// mistakes apply to sums.
+std::vector<WrongPictures> moved_pictures(const std::vector<ComparedTerm>& terms, bool are_sums, int factor = 1);
+// No light, too much of it, or too little. `shapes`: the shape that a ray through the middle of each pixel hits, for factors that
+// differ by shape.
+std::vector<WrongPictures> scaled_pictures(const std::vector<ComparedTerm>& terms, const std::vector<std::uint32_t>& shapes);
 
 }  // namespace neumann

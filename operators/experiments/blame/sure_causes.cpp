@@ -22,6 +22,8 @@ bool is_of_sure_light(Mistake mistake) {
     return mistake == Mistake::no_emission || mistake == Mistake::no_light_after_mirror || mistake == Mistake::no_mirrors;
 }
 
+bool is_sure(Mistake mistake) { return mistake == Mistake::none || is_of_emission(mistake) || is_of_sure_light(mistake); }
+
 }  // namespace
 
 std::vector<SureCause> find_sure_causes(ExpectedPictures& expected, const std::vector<ComparedTerm>& compared, bool are_sums) {
@@ -30,8 +32,8 @@ std::vector<SureCause> find_sure_causes(ExpectedPictures& expected, const std::v
     for (const ComparedTerm& c : compared)
         if (c.bounces.last <= 1) direct.push_back(c.bounces);
     if (direct.empty()) return causes;
-    const auto made = expected.wrong(direct);
-    const double samples = expected.paths_a_pixel();
+    const auto made = expected.wrong({.ranges = direct, .is_wanted = is_sure});
+    const double samples = expected.paths_a_pixel(1);
     const auto none = std::ranges::find(*made, Mistake::none, &WrongTerms::mistake);
     const double theirs = direct.front() == BounceRange{0, 0}
                               ? fewest_samples(compared.front().theirs, compared.front().ours, {none->terms[0], samples})

@@ -1,6 +1,7 @@
 #include "operators/experiments/blame/suspects.h"
 
 #include "operators/experiments/blame/explained.h"
+#include "operators/experiments/blame/joined_pixels.h"
 #include "operators/experiments/blame/likelihood.h"
 
 #include <algorithm>
@@ -11,6 +12,22 @@
 namespace neumann {
 
 namespace {
+
+int factor_of(const std::vector<ComparedTerm>& terms) {
+    return joining_factor(terms.front().theirs.mean.width, terms.front().theirs.mean.height);
+}
+
+std::vector<ComparedTerm> of_fewer_pixels(const std::vector<ComparedTerm>& terms) {
+    std::vector<ComparedTerm> result;
+    for (const ComparedTerm& t : terms) result.push_back(joined(t, factor_of(terms)));
+    return result;
+}
+
+double of_none(const std::vector<ComparedTerm>& terms) {
+    double sum = 0.0;
+    for (const ComparedTerm& t : terms) sum += misfit(t.theirs, t.ours);
+    return sum;
+}
 
 class Suspects {
 public:
@@ -35,7 +52,7 @@ public:
         std::stable_sort(all_.begin(), all_.end(), [](const Suspect& a, const Suspect& b) { return a.misfit < b.misfit; });
         constexpr double unexplained = 1e-3, most_of_it = 0.9;
         const auto leaves_nothing = [](const Suspect& s) { return !s.is_fitted && s.p_of_all_that_is_left > unexplained; };
-        const double right = misfit_of_none(terms_);
+        const double right = of_none(terms_);
         const auto best = std::ranges::find_if(all_, leaves_nothing);
         const double most = best == all_.end() ? 0.0 : most_of_it * (right - best->misfit);
         std::stable_partition(all_.begin(), all_.end(), [&](const Suspect& s) {
@@ -57,38 +74,45 @@ private:
 
 }  // namespace
 
-double misfit_of_none(const std::vector<ComparedTerm>& terms) {
-    double sum = 0.0;
-    for (const ComparedTerm& t : terms) sum += misfit(t.theirs, t.ours);
-    return sum;
-}
+double misfit_of_none(const std::vector<ComparedTerm>& terms) { return of_none(of_fewer_pixels(terms)); }
 
 std::vector<Suspect> find_suspects(ExpectedPictures& expected, const ComparedTerm* before, const std::vector<ComparedTerm>& terms,
                                    bool are_sums, const std::vector<std::uint32_t>& shapes) {
-    Suspects suspects(terms);
-    for (const WrongPictures& w : wrong_pictures(terms, are_sums, shapes))
+    const int factor = factor_of(terms), width = terms.front().theirs.mean.width;
+    const std::vector<ComparedTerm> of_fewer = of_fewer_pixels(terms);
+    Suspects suspects(of_fewer);
+    const auto add = [&](const WrongPictures& w) {
         // A shift or blur must already show in bounce 0.
         suspects.add(w.name, w.words, w.terms, w.parameters, w.parameters > 0, w.is_smoothed,
                      w.is_a_cause && (!w.is_smoothed || terms.front().bounces.first == 0));
+    };
+    for (const WrongPictures& w : moved_pictures(terms, are_sums, factor)) add(w);
+    for (const WrongPictures& w : scaled_pictures(of_fewer, at_middles(shapes, width, factor))) add(w);
     std::vector<BounceRange> ranges, with_before;
-    if (before) with_before.push_back(before->bounces);
+    PictureNoise theirs_before;
+    if (before) {
+        with_before.push_back(before->bounces);
+        theirs_before = joined(before->theirs, factor);
+    }
     for (const ComparedTerm& t : terms) ranges.push_back(t.bounces);
     with_before.insert(with_before.end(), ranges.begin(), ranges.end());
     const std::ptrdiff_t first = before ? 1 : 0;
-    for (const WrongTerms& w : *expected.wrong(with_before, static_cast<std::size_t>(first))) {
+    for (const WrongTerms& w :
+         *expected.wrong({.ranges = with_before, .begins = static_cast<std::size_t>(first), .factor = factor})) {
         if (w.mistake() == Mistake::none || (w.mistake() == Mistake::no_samples_at_the_end && !are_sums)) continue;
-        std::vector<PictureNoise> of_terms(w.terms.begin() + first, w.terms.end());
-        const auto add = [&](double factor, int parameters) {
-            const double p = before ? test_difference(before->theirs, scaled(w.terms[0], factor)).p : 1.0;
-            for (PictureNoise& picture : of_terms) picture = scaled(picture, factor);
-            suspects.add(w.kind->name, w.kind->words, of_terms, parameters, false, false, true, p);
+        const std::vector<PictureNoise> of_terms(w.terms.begin() + first, w.terms.end());
+        const auto add_times = [&](double times, int parameters) {
+            const double p = before ? test_difference(theirs_before, scaled(w.terms[0], times)).p : 1.0;
+            std::vector<PictureNoise> rescaled;
+            for (const PictureNoise& of_term : of_terms) rescaled.push_back(scaled(of_term, times));
+            suspects.add(w.kind->name, w.kind->words, rescaled, parameters, false, false, true, p);
         };
-        const double factor = fitted_factor(terms[0].theirs, of_terms[0]);
-        add(1.0, 0);
+        add_times(1.0, 0);
         // Without 1/d² light has no unit, and may have any scale.
-        if (w.mistake() == Mistake::no_inverse_square || w.mistake() == Mistake::inverse_distance) add(factor, 1);
+        if (w.mistake() == Mistake::no_inverse_square || w.mistake() == Mistake::inverse_distance)
+            add_times(fitted_factor(of_fewer[0].theirs, of_terms[0]), 1);
     }
-    for (const WrongPictures& w : *expected.without_techniques(ranges)) suspects.add(w.name, w.words, w.terms, 0, false);
+    for (const WrongPictures& w : *expected.without_techniques(ranges, factor)) suspects.add(w.name, w.words, w.terms, 0, false);
     return suspects.likeliest_first();
 }
 

@@ -33,7 +33,7 @@ struct Suspect {
 std::vector<Suspect> find_suspects(ExpectedPictures& expected, const ComparedTerm* before, const std::vector<ComparedTerm>& terms,
                                    bool are_sums, const std::vector<std::uint32_t>& shapes);
 
-// The misfit of the terms if nothing is wrong.
+// Their misfit if nothing is wrong.
 double misfit_of_none(const std::vector<ComparedTerm>& terms);
 
 }  // namespace neumann
