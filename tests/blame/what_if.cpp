@@ -1,4 +1,5 @@
 // Paths that carry mistakes along: without one they are the walk's, whatever the materials.
+#include "operators/experiments/blame/joined_pixels.h"
 #include "operators/experiments/blame/path_mistakes.h"
 
 #include "operators/experiments/known/scene_maker.h"
@@ -73,6 +74,37 @@ TEST(WhatIf, TheTwoTechniquesShareTheLight) {
         EXPECT_GT(hit, 0.0) << i;
         EXPECT_GT(sampled, 0.5 * mean(Mistake::none, i)) << i;
     }
+}
+
+// Joined pixels are means over the pixels of the film, along the same paths; those of the last column and row are over fewer.
+TEST(WhatIf, JoinedPixelsAreMeans) {
+    SceneMaker maker;
+    for (const auto& wall : room({-1, -1, -1}, {1, 1, 1})) maker.add(wall, matte(0.5));
+    maker.add(parallelogram({-0.4, -0.4, 0.5}, {0, 0.8, 0}, {0.8, 0, 0}), lamp(4.0));
+    maker.parts.camera = {
+        .to_world = Mat4({-1, 0, 0, 0}, {0, 0, 1, 0}, {0, 1, 0, 0}, {0, -0.95, 0, 1}), .fov = 0.5 * pi, .near_clip = 1e-3};
+    maker.parts.film = {8, 7, 0, 0, 8, 7};
+    const Scene scene = maker.make();
+    const auto is_some = [](Mistake m) { return m == Mistake::none || m == Mistake::no_cosine; };
+    const WrongPaths of_pixels{.ranges = {{1, 1}, {2, 2}}, .is_wanted = is_some};
+    WrongPaths of_fewer = of_pixels;
+    of_fewer.factor = 3;
+    const std::vector<WrongTerms> whole = wrong_terms(scene, of_pixels, 16, 1), fewer = wrong_terms(scene, of_fewer, 16, 1);
+    ASSERT_EQ(whole.size(), 3u);  // without a mistake, and without a cosine in two kinds of tracers
+    ASSERT_EQ(fewer.size(), whole.size());
+    for (std::size_t m = 0; m < whole.size(); ++m)
+        for (std::size_t r = 0; r < 2; ++r) {
+            const PictureNoise expected = joined(whole[m].terms[r], 3), &found = fewer[m].terms[r];
+            ASSERT_EQ(found.mean.width, 3);
+            ASSERT_EQ(found.mean.height, 3);
+            for (std::size_t p = 0; p < 9; ++p) {
+                EXPECT_NEAR(found.mean.pixels[p].r, expected.mean.pixels[p].r, 1e-12 * expected.mean.pixels[p].r);
+                EXPECT_NEAR(found.variance.pixels[p].r, expected.variance.pixels[p].r, 1e-12 * expected.variance.pixels[p].r);
+            }
+        }
+    EXPECT_EQ(joining_factor(128, 128), 1);
+    EXPECT_EQ(joining_factor(129, 128), 2);
+    EXPECT_EQ(joining_factor(1024, 512), 6);
 }
 
 }  // namespace neumann::what_if_test

@@ -266,8 +266,10 @@ private:
     }
 
     static TermVerdict::Doubt doubt_about(const ComparedTerm& c) {
-        if (const auto two = two_seeds(c); two && seeds_differ(*two)) return TermVerdict::Doubt::seeds_differ;
-        return is_mostly_ours(c) ? TermVerdict::Doubt::few_samples : TermVerdict::Doubt::shared_numbers;
+        const auto two = two_seeds(c);
+        if (two && seeds_differ(*two)) return TermVerdict::Doubt::seeds_differ;
+        if (is_mostly_ours(c)) return TermVerdict::Doubt::few_samples;
+        return two ? TermVerdict::Doubt::seeds_agree : TermVerdict::Doubt::shared_numbers;
     }
 
     // Whether most of the noise that hides the difference is ours.

@@ -28,7 +28,8 @@ struct TermVerdict {
         few_samples,  // our samples: the difference may be our noise, or no mistake is clearly likelier than none
         // Their pictures differ over wide areas by more than their own noise, and no mistake explains it.
         shared_numbers,
-        seeds_differ  // likewise, and so do their pictures of two seeds
+        seeds_differ,  // likewise, and so do their pictures of two seeds
+        seeds_agree    // likewise, and their pictures of two seeds do not, but have little noise that tells pixels apart
     };
 
     BounceRange bounces;

@@ -60,6 +60,12 @@ std::string what_is_unclear(const TermVerdict& term, std::uint64_t samples) {
                 "{}, too much or too little over wide areas, by more than your pixels' own noise, and no mistake that is tried "
                 "explains it. Perhaps your pixels share random numbers; pictures of a second seed, given again, tell.",
                 is_apart);
+        case TermVerdict::Doubt::seeds_agree:
+            return fmt::format(
+                "{}, too much or too little over wide areas, by more than your pixels' own noise, and no mistake that is tried "
+                "explains it. Your pictures of two seeds agree with each other: if all pixels have random numbers of their own, "
+                "something is wrong that has no name here. More samples of yours tell.",
+                is_apart);
         default:
             return fmt::format(
                 "{}, and your pixels share random numbers: your pictures of two seeds differ from each other, too, over wide areas "
