@@ -92,7 +92,7 @@ TEST_F(BadInputOptions, BiasAllowed) {
 TEST_F(BadInputOptions, Tree) {
     for (const std::string what : {"0", "9", "all", "equal", "equal-1", "equal-17", "equal-2.5"})
         EXPECT_TRUE(refusal({"--tree", what})
-                        .starts_with("--tree: '" + what + "' is not sum, a bounce from 1 to 8, or equal-2 to equal-16\n"));
+                        .starts_with("--tree: '" + what + "' is not sum, place, a bounce from 1 to 8, or equal-2 to equal-16\n"));
     EXPECT_EQ(refusal({"--tree", "sum", "--split", "2,2"}), "--tree chooses what split and roulette say; take it alone\n");
     EXPECT_EQ(refusal({"--tree", "5", "-n", "4"}), "--tree 5: the last bounce that has a picture is 4\n");
     EXPECT_EQ(refusal({"--tree", "equal-2", "-n", "9"}),

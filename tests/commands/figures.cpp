@@ -220,7 +220,8 @@ TEST_F(Figures, OfAStudyOfSomeBounces) {
     }
     expect_latex(tex);
     EXPECT_EQ(refused({"study", "scene.xml", "-o", "new", "--methods", "walk", "-n", "3-1"}),
-              "-n: '3-1' is not the last bounce, from 0 to 100000, or the first and the last, as in 1-4\n");
+              "-n: '3-1' is not the last bounce, from 0 to 100000, or the first and the last, as in 1-4\n"
+              "Run with --help for more information.\n");
 }
 
 }  // namespace neumann::figures_test

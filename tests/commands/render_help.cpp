@@ -40,7 +40,7 @@ TEST_F(RenderHelp, OptionsOfRender) {
                                                     "--part",      "--photons",    "--radius",   "--gather",
                                                     "--chain",     "--adaptive",   "--tree",     "--indirect",
                                                     "--records",   "--accuracy",   "--reuse",    "--bias-allowed",
-                                                    "--paths"}));
+                                                    "--paths",     "--touch"}));
     EXPECT_NE(help.find("SCENE"), std::string::npos);
     EXPECT_NE(help.find("\n  neumann render SCENE "), std::string::npos) << help;
     // Nothing of how it is written.

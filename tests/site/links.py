@@ -45,7 +45,7 @@ class Links(HTMLParser):
 
 
 def problems(site):
-    pages = {path: Links(path.read_text(encoding="utf-8")) for path in site.rglob("*.html") if path.name != "explorer.html"}
+    pages = {path: Links(path.read_text(encoding="utf-8")) for path in site.rglob("*.html") if path.name != "explorer.html" or path.parent.name == "manual"}
     found, followed = [], 0
     for path, page in pages.items():
         where = path.relative_to(site)

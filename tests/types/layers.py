@@ -38,7 +38,7 @@ LIMITS = {
     "bidirectional": 36,
     "photon": 19,
     "lines of core, operators and apps": 103899,
-    "lines of tests": 47198,
+    "lines of tests": 47199,
 }
 
 
