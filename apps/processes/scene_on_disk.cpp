@@ -8,14 +8,17 @@ namespace neumann {
 nlohmann::ordered_json as_json(const SceneOnDisk& scene) {
     auto definitions = nlohmann::ordered_json::object();
     for (const auto& [name, value] : scene.file.definitions) definitions[name] = bytes_as_json(value);
-    return {{"path", bytes_as_json(scene.file.path)},
-            {"definitions", definitions},
-            {"lenient", scene.file.lenient},
-            {"hash", scene.hash}};
+    nlohmann::ordered_json json = {{"path", bytes_as_json(scene.file.path)},
+                                   {"definitions", definitions},
+                                   {"lenient", scene.file.lenient},
+                                   {"hash", scene.hash}};
+    if (scene.file.hemisphere) json["hemisphere"] = *scene.file.hemisphere;
+    return json;
 }
 
 SceneOnDisk scene_from(const nlohmann::ordered_json& json) {
     SceneOnDisk scene{{bytes_from_json(json.at("path")), {}, json.at("lenient")}, json.at("hash")};
+    if (json.contains("hemisphere")) scene.file.hemisphere = json.at("hemisphere").get<std::array<int, 2>>();
     for (const auto& [name, value] : json.at("definitions").items()) scene.file.definitions[name] = bytes_from_json(value);
     return scene;
 }

@@ -25,7 +25,17 @@ Loaded load(LoadedScene scene) {
     } catch (const UnknownError& e) {
         throw InputError(std::string(e.what()) + "\nlenient=True takes the scene without what is not known");
     }
+    if (loaded->file.hemisphere)
+        loaded->scene = std::make_shared<const Scene>(above_what_is_seen(*loaded->scene, *loaded->file.hemisphere));
     loaded->seconds = watch.seconds();
+    return loaded;
+}
+
+Loaded seen_from_hemisphere(const LoadedScene& scene, int x, int y) {
+    if (scene.file.hemisphere) throw InputError("hemisphere(): this scene is seen from a hemisphere already");
+    auto loaded = std::make_shared<LoadedScene>(scene);
+    loaded->file.hemisphere = {x, y};
+    loaded->scene = std::make_shared<const Scene>(above_what_is_seen(*scene.scene, {x, y}));
     return loaded;
 }
 
@@ -92,6 +102,7 @@ void bind_scene(py::module_& m) {
                                        s.file.path.data(), static_cast<py::ssize_t>(s.file.path.size())));
                                })
         .def_property_readonly("definitions", [](const LoadedScene& s) { return s.file.definitions; })
+        .def("hemisphere", &seen_from_hemisphere)
         .def_property_readonly("edits",
                                [](const LoadedScene& s) {
                                    std::vector<std::pair<std::string, std::string>> edits;

@@ -62,6 +62,7 @@ std::string command_line(const LoadedScene& scene, const std::string& command, c
     std::string line = "neumann " + command + " " + scene.file.path;
     for (const std::string& word : words) line += " " + word;
     for (const auto& [name, value] : scene.file.definitions) line += " -D " + name + "=" + value;
+    if (scene.file.hemisphere) line += fmt::format(" --hemisphere {},{}", (*scene.file.hemisphere)[0], (*scene.file.hemisphere)[1]);
     if (!scene.scene->replaced.empty()) line += " --lenient";
     for (const reader::Edit& edit : scene.changes.edits) line += ", edited: " + edit.name + " = " + edit.value;
     return line;

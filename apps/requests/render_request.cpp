@@ -75,6 +75,13 @@ std::vector<Option<R>> all_options() {
     const std::vector<Option<R>> others{
         option<R>("reference", "DIR", "Folder of an earlier render; convergence.csv then also has the errors against it",
                   &R::reference, any_text()),
+        option<R>(
+            "hemisphere", "X,Y",
+            "In place of the camera's picture, what arrives at the point that this pixel sees, from all directions: T K^i Le",
+            [](auto& r) -> auto& { return r.scene.hemisphere; },
+            Form<std::array<int, 2>>{[](const std::string& text) { return two_whole(text, ','); },
+                                     [](const std::array<int, 2>& pixel) { return fmt::format("{},{}", pixel[0], pixel[1]); },
+                                     not_a("a pixel, such as 19,160")}),
         files_option(&R::files),
         theme_option(&R::theme),
         paths_option(&R::paths),

@@ -3,12 +3,44 @@
 #include "core/base/error.h"
 #include "core/reader/read_scene.h"
 
+#include <fmt/format.h>
+
 #include <dlfcn.h>
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 namespace neumann {
 
-Scene read_scene(const SceneFile& file) { return read_scene(file.path, file.definitions, {.lenient = file.lenient}); }
+Scene read_scene(const SceneFile& file) {
+    Scene scene = read_scene(file.path, file.definitions, {.lenient = file.lenient});
+    return file.hemisphere ? above_what_is_seen(scene, *file.hemisphere) : scene;
+}
+
+Scene above_what_is_seen(const Scene& scene, const std::array<int, 2>& pixel) {
+    const auto [x, y] = pixel;
+    const Film& film = scene.film;
+    if (x < 0 || y < 0 || x >= film.width || y >= film.height)
+        throw InputError(fmt::format("--hemisphere {},{}: the film has x from 0 to {} and y from 0 to {}", x, y, film.width - 1,
+                                     film.height - 1));
+    const CameraRay ray = scene.camera.ray({x + 0.5, y + 0.5});
+    SurfacePoint p;
+    if (!scene.geometry.first_hit(ray.origin, ray.direction, ray.length, p))
+        throw InputError(fmt::format("--hemisphere {},{}: this pixel sees no surface", x, y));
+    const double side = -glm::dot(p.normal, ray.direction);
+    const Vec3 n = p.normal * std::copysign(1.0, side), up_of_camera(scene.camera.options().to_world[1]);
+    // On a floor, on which the camera's up is the normal, up is away from the camera.
+    const Vec3 along = std::abs(glm::dot(glm::normalize(up_of_camera), n)) < 0.99 ? up_of_camera : ray.direction;
+    const Vec3 up = glm::normalize(along - n * glm::dot(along, n)), left = glm::cross(up, n);
+    SensorOptions sensor;
+    sensor.kind = SensorOptions::Kind::hemisphere;
+    sensor.to_world =
+        Mat4(glm::dvec4(left, 0.0), glm::dvec4(up, 0.0), glm::dvec4(n, 0.0), glm::dvec4(Geometry::leave(p, side), 1.0));
+    Film square;
+    square.width = square.height = square.crop_width = square.crop_height = std::min(film.width, film.height);
+    square.filter = BoxFilter();
+    return scene.with(sensor, square);
+}
 
 std::map<std::string, std::string> parse_definitions(const std::vector<std::string>& texts) {
     std::map<std::string, std::string> definitions;

@@ -208,10 +208,10 @@ Scene Scene::with(Lights lights) const {
     return Scene(shared_geometry_, materials, Emitters(geometry, std::move(lights)), camera, film, *this);
 }
 
-Scene Scene::with(const Film& other) const {
+Scene Scene::with(const SensorOptions& sensor, const Film& other) const {
     Scene scene = *this;
-    scene.film = film_of(camera.options(), other);
-    scene.camera = Sensor(camera.options(), scene.film, &geometry);
+    scene.film = film_of(sensor, other);
+    scene.camera = Sensor(sensor, scene.film, &geometry);
     return scene;
 }
 

@@ -50,8 +50,9 @@ public:
     Scene with(Materials materials) const;
     // The same scene in the light of others; shapes that shone are dark. `lights.of_shape` may be empty.
     Scene with(Lights lights) const;
-    // The same scene, seen on another film.
-    Scene with(const Film& film) const;
+    // The same scene, seen on another film, and by another sensor.
+    Scene with(const Film& film) const { return with(camera.options(), film); }
+    Scene with(const SensorOptions& sensor, const Film& film) const;
 
     const Geometry& geometry;
     Materials materials;

@@ -8,7 +8,8 @@ namespace neumann {
 Sensor::Sensor(const SensorOptions& options, const Film& film, const Geometry* geometry)
     : sensor_(make(options, film, geometry)),
       options_(options),
-      has_lens_(!std::holds_alternative<Perspective>(sensor_) && !std::holds_alternative<Orthographic>(sensor_)) {}
+      has_lens_(!std::holds_alternative<Perspective>(sensor_) && !std::holds_alternative<Orthographic>(sensor_) &&
+                !std::holds_alternative<Hemisphere>(sensor_)) {}
 
 Sensor::Variant Sensor::make(const SensorOptions& options, const Film& film, const Geometry* geometry) {
     const auto scene = [&]() -> const Geometry& {
@@ -28,6 +29,8 @@ Sensor::Variant Sensor::make(const SensorOptions& options, const Film& film, con
             return DistantSensor(options, film, scene());
         case SensorOptions::Kind::batch:
             return Batch(options, film, geometry);
+        case SensorOptions::Kind::hemisphere:
+            return Hemisphere(options, film);
     }
     return Perspective(options, film);
 }
@@ -35,11 +38,13 @@ Sensor::Variant Sensor::make(const SensorOptions& options, const Film& film, con
 double Sensor::response(const Vec2& position) const {
     if (const auto* meter = std::get_if<IrradianceMeter>(&sensor_)) return meter->response();
     if (const auto* batch = std::get_if<Batch>(&sensor_)) return batch->response(position);
+    if (const auto* hemisphere = std::get_if<Hemisphere>(&sensor_)) return hemisphere->response(position);
     return 1.0;
 }
 
 double Sensor::largest_response() const {
     const auto* batch = std::get_if<Batch>(&sensor_);
+    if (std::holds_alternative<Hemisphere>(sensor_)) return 1.0;
     if (!batch) return response(Vec2(0.0));
     double largest = 0.0;
     for (const Sensor& sensor : batch->sensors()) largest = std::max(largest, sensor.largest_response());

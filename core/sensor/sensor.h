@@ -1,9 +1,10 @@
-// The sensors: Mitsuba's `perspective`, `thinlens`, `orthographic`, `irradiancemeter`, `distant` and `batch`. They are
-// a closed set, like materials and lights.
+// The sensors: Mitsuba's `perspective`, `thinlens`, `orthographic`, `irradiancemeter`, `distant` and `batch`, and our `hemisphere`.
+// They are a closed set, like materials and lights.
 #pragma once
 
 #include "core/sensor/batch.h"
 #include "core/sensor/distant.h"
+#include "core/sensor/hemisphere.h"
 #include "core/sensor/irradiance_meter.h"
 #include "core/sensor/orthographic.h"
 #include "core/sensor/perspective.h"
@@ -49,7 +50,7 @@ public:
     bool can_be_joined() const;
 
 private:
-    using Variant = std::variant<Perspective, ThinLens, Orthographic, IrradianceMeter, DistantSensor, Batch>;
+    using Variant = std::variant<Perspective, ThinLens, Orthographic, IrradianceMeter, DistantSensor, Batch, Hemisphere>;
     static Variant make(const SensorOptions& options, const Film& film, const Geometry* geometry);
     Variant sensor_;
     SensorOptions options_;

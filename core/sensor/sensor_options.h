@@ -91,7 +91,7 @@ enum class FovAxis { x, y, diagonal, smaller, larger };
 double tan_half_width(double fov, FovAxis axis, double aspect);
 
 struct SensorOptions {
-    enum class Kind { perspective, thin_lens, orthographic, irradiance_meter, distant, batch };
+    enum class Kind { perspective, thin_lens, orthographic, irradiance_meter, distant, batch, hemisphere };
 
     Mat4 to_world{1.0};  // camera looks along its +z, +y up, +x left (Mitsuba's convention)
     double fov = 0.0;    // full angle, radians; not used by `orthographic`

@@ -69,6 +69,23 @@ for (let change = 0; change < 10; ++change) {
   }
 }
 
+// Bounce i was reflected i times, by all materials together, and is the sum of what the lamps bring.
+for (let i = 1; i <= 4; ++i) {
+  const { materials, lamps } = await page.evaluate(i => { Object.assign(touched.state, { bounce: i, sum: false }); return touched.origins(); }, i);
+  assert.ok(Math.abs(materials.reduce((a, b) => a + b, 0) - i) < 1e-4, `bounce ${i}: ${materials}`);
+  assert.ok(Math.abs(lamps.reduce((a, b) => a + b, 0) - 1) < 1e-4, `bounce ${i}: ${lamps}`);
+  // Against a difference of two rooms: the left wall 1% brighter.
+  const [less, more] = await page.evaluate(i => {
+    const left = data.materials.findIndex(m => nameOf(m) === "left"), was = touched.state.room.materials[left];
+    const means = [.99, 1.01].map(by => { touched.state.room.materials[left] = was.map(v => v * by); return touched.compute().means[i]; });
+    touched.state.room.materials[left] = was;
+    return means;
+  }, i);
+  const expected = (more - less) / (.01 * (more + less)), found = materials[await page.evaluate(() => data.materials.findIndex(m => nameOf(m) === "left"))];
+  assert.ok(Math.abs(found - expected) < 2e-3 * i, `bounce ${i}: ${found}, expected ${expected}`);
+}
+await page.evaluate(() => Object.assign(touched.state, { bounce: 5, sum: true }));
+
 // A slider moves the light; "As rendered" brings all back.
 const facts = () => page.locator("#facts").innerText(), verdict = () => page.locator("#verdict").innerText();
 const frame = () => page.evaluate(() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done))));

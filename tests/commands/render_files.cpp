@@ -237,4 +237,29 @@ TEST_F(RenderFiles, ThePageThatOneCanTouch) {
     EXPECT_FALSE(std::filesystem::exists(path("c")));
 }
 
+// What arrives at a point that the camera sees; run.json has the pixel, so that paths can be replayed.
+TEST_F(RenderFiles, TheHemisphereAboveAPoint) {
+    write("scene.xml", R"(<scene version="3.0.0">
+<sensor type="perspective"><float name="fov" value="60"/>
+<film type="hdrfilm"><integer name="width" value="12"/><integer name="height" value="8"/></film>
+<transform name="to_world"><lookat origin="0, 0, 5" target="0, 0, 0" up="0, 1, 0"/></transform></sensor>
+<shape type="rectangle"><bsdf type="diffuse"/></shape>
+<shape type="rectangle"><transform name="to_world"><rotate x="1" angle="180"/><translate z="6"/></transform>
+<emitter type="area"><rgb name="radiance" value="2"/></emitter></shape>
+</scene>)");
+    render("scene.xml", "a", {"-n", "1", "--spp", "64", "--method", "walk", "--quiet", "--hemisphere", "6,4"});
+    const nlohmann::json json = nlohmann::json::parse(text_of(path("a/run.json")));
+    EXPECT_EQ(json.at("scene").at("hemisphere"), nlohmann::json::array({6, 4}));
+    const Estimate seen = picture("a", "bounce_000.exr");
+    EXPECT_EQ(seen.mean.width, 8);
+    EXPECT_EQ(seen.mean.height, 8);
+    // Straight up there is the lamp; along the surface there is nothing.
+    EXPECT_GT(seen.mean.at(4, 4).r, 0.0);
+    EXPECT_EQ(seen.mean.at(0, 4), Rgb(0.0));
+    EXPECT_EQ(run({"replay", "a", "--pixel", "4,4", "--sample", "3"}).exit_code, 0);
+    EXPECT_EQ(refused({"render", "scene.xml", "-o", "b", "--hemisphere", "12,4"}),
+              "--hemisphere 12,4: the film has x from 0 to 11 and y from 0 to 7\n");
+    EXPECT_EQ(refused({"render", "scene.xml", "-o", "b", "--hemisphere", "0,0"}), "--hemisphere 0,0: this pixel sees no surface\n");
+}
+
 }  // namespace neumann::render_files_test

@@ -29,18 +29,18 @@ protected:
 // A new option has to be decided on first; then it is added here.
 TEST_F(RenderHelp, OptionsOfRender) {
     const std::string help = printed({"help", "render"});
-    EXPECT_EQ(options(help), (std::set<std::string>{"-h,--help",   "-o",           "-n",         "--tail",
-                                                    "--spp",       "--time",       "--error",    "--method",
-                                                    "--direct",    "--lights",     "--roulette", "--split",
-                                                    "--ways",      "--sampler",    "--patches",  "--directions",
-                                                    "--reference", "--seed",       "-t",         "-D",
-                                                    "--lenient",   "--quiet",      "--json",     "--files",
-                                                    "--theme",     "--importance", "--plan",     "--memory",
-                                                    "--resume",    "--checkpoint", "--live",     "--tev",
-                                                    "--part",      "--photons",    "--radius",   "--gather",
-                                                    "--chain",     "--adaptive",   "--tree",     "--indirect",
-                                                    "--records",   "--accuracy",   "--reuse",    "--bias-allowed",
-                                                    "--paths",     "--touch"}));
+    EXPECT_EQ(options(help), (std::set<std::string>{"-h,--help",   "-o",           "-n",          "--tail",
+                                                    "--spp",       "--time",       "--error",     "--method",
+                                                    "--direct",    "--lights",     "--roulette",  "--split",
+                                                    "--ways",      "--sampler",    "--patches",   "--directions",
+                                                    "--reference", "--seed",       "-t",          "-D",
+                                                    "--lenient",   "--quiet",      "--json",      "--files",
+                                                    "--theme",     "--importance", "--plan",      "--memory",
+                                                    "--resume",    "--checkpoint", "--live",      "--tev",
+                                                    "--part",      "--photons",    "--radius",    "--gather",
+                                                    "--chain",     "--adaptive",   "--tree",      "--indirect",
+                                                    "--records",   "--accuracy",   "--reuse",     "--bias-allowed",
+                                                    "--paths",     "--touch",      "--hemisphere"}));
     EXPECT_NE(help.find("SCENE"), std::string::npos);
     EXPECT_NE(help.find("\n  neumann render SCENE "), std::string::npos) << help;
     // Nothing of how it is written.

@@ -35,6 +35,20 @@ class Render(Case):
         with self.assertRaisesRegex(neumann.InputError, "^furnce: there is no such file"):
             neumann.load("furnce")
 
+    def test_the_hemisphere_above_a_point(self):
+        scene = neumann.load(scene_file("cornell-box"), res=16)
+        above = scene.hemisphere(8, 13)
+        self.assertEqual((above.width, above.height), (16, 16))
+        series = above.render(bounces=3, spp=8, seed=7)
+        self.expect_same(series, self.by_command("--hemisphere", "8,13"))
+        self.assertEqual(series.terms[1][0, 0].tolist(), [0, 0, 0])
+        self.assertGreater(series.terms[1].mean(), 0)
+        for x, y, why in ((16, 3, "the film has x from 0 to 15"), (-1, 0, "the film has x from 0 to 15")):
+            with self.assertRaisesRegex(neumann.InputError, f"^--hemisphere {x},{y}: {why}"):
+                scene.hemisphere(x, y)
+        with self.assertRaisesRegex(neumann.InputError, "already"):
+            above.hemisphere(1, 1)
+
     def test_shapes(self):
         series = cornell().render(bounces=3, spp=8)
         self.assertEqual(series.terms.shape, (4, 16, 16, 3))

@@ -66,7 +66,7 @@ class Stubs(unittest.TestCase):
         # Every option of the command has its keyword, but for those that say where things go, and what is on disk meanwhile.
         import subprocess
 
-        known = {"o": None, "part": None, "checkpoint": None, "keep": None, "resume": None, "channels": None, "files": None, "paths": None, "theme": None, "touch": None, "tev": None, "n": "bounces", "t": "threads", "D": None, "lenient": None, "json": None, "quiet": "quiet", "help": None, "h": None}
+        known = {"o": None, "part": None, "checkpoint": None, "keep": None, "resume": None, "channels": None, "files": None, "paths": None, "theme": None, "touch": None, "hemisphere": None, "tev": None, "n": "bounces", "t": "threads", "D": None, "lenient": None, "json": None, "quiet": "quiet", "help": None, "h": None}
         for command, function in (("render", neumann.Scene.render), ("study", neumann.Scene.study), ("spectrum", neumann.Scene.spectrum), ("blame", neumann.blame)):
             text = subprocess.run([os.environ["NEUMANN"], command, "--help"], capture_output=True, text=True).stdout
             options = {word.split(",")[0].lstrip("-") for line in text.splitlines() if line.startswith("  -") for word in line.split()[:1]}

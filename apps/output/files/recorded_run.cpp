@@ -31,6 +31,7 @@ RecordedRun recorded_run(const Json& json, const std::string& folder) {
     render.method = method_from_json(options);
     expect_paths(render.method, folder);
     run.scene = {file_named_in_json(scene.at("file")), scene.at("definitions"), scene.contains("replaced")};
+    if (scene.contains("hemisphere")) run.scene.hemisphere = scene.at("hemisphere").get<std::array<int, 2>>();
     run.hash = scene.at("hash");
     run.version = json.at("program").at("version");
     render.seed = options.at("seed");

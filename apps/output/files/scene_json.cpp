@@ -7,6 +7,7 @@ namespace neumann {
 
 nlohmann::ordered_json scene_json(const Scene& scene, const SceneFile& file) {
     nlohmann::ordered_json json = {{"file", file.path}, {"hash", scene.hash}, {"definitions", file.definitions}};
+    if (file.hemisphere) json["hemisphere"] = *file.hemisphere;
     if (!scene.replaced.empty()) json["replaced"] = scene.replaced;
     return json;
 }

@@ -64,6 +64,18 @@ const touch = (async () => {
     }));
     return seenNow;
   };
+  // ρ ∂/∂ρ of the fields for one material. As K^i Le is of degree i in all reflectances together, this is the number of reflections
+  // by it, weighted by light: for all materials they add up to i.
+  const reflectionsBy = (m, { rho, fields }) => {
+    const all = [empty(n)];
+    for (let i = 1; i < fields.length; ++i) {
+      const counted = empty(n);
+      if (i > 1) reflect(rho, all[i - 1], counted);
+      channels.forEach(c => { for (let f = 0; f < n; ++f) if (material[f] === m) counted[c][f] += fields[i][c][f]; });
+      all.push(counted);
+    }
+    return all;
+  };
   const mean = field => {
     const [r, g, b] = field;
     let sum = 0;
@@ -89,7 +101,7 @@ const touch = (async () => {
     }
     return found;
   };
-  return { n, area, reflectances, series, picture, mean, norm, radius };
+  return { n, series, picture, mean, norm, radius, reflectionsBy };
 })();
 
 const bouncesShown = Math.max(16, data.rendered.length - 1);
@@ -208,6 +220,27 @@ touch.then(async t => {
     now.milliseconds = performance.now() - start;
     return now;
   };
+  // Of the mean of the bounce or sum that is shown: by material how often its light was reflected there, and by lamp its share.
+  const origins = now => {
+    const range = means => state.sum ? means.slice(0, state.bounce + 1).reduce((a, b) => a + b, 0) : means[state.bounce];
+    const whole = range(now.means);
+    const meansOf = fields => fields.map((field, i) => t.mean(field));
+    return {
+      materials: data.materials.map((_, m) => whole > 0 ? range(meansOf(t.reflectionsBy(m, now))) / whole : 0),
+      lamps: data.lamps.map((_, j) => {
+        const alone = { ...state.room, lamps: state.room.lamps.map((power, k) => k === j ? power : [0, 0, 0]) };
+        const { fields } = t.series(alone, bouncesShown), means = meansOf(fields);
+        means[0] = meanOf(t.picture(fields[0], alone, 0));
+        return whole > 0 ? range(means) / whole : 0;
+      }) };
+  };
+  const showOrigins = () => {
+    const { materials, lamps } = origins(latest), what = state.sum ? `bounces 0 to ${state.bounce}` : `bounce ${state.bounce}`;
+    $("origins").replaceChildren(
+      table([`reflected by, in ${what}`, "times on average"], data.materials.map((m, k) => [nameOf(m), number(materials[k], 3)]).filter(row => row[1] !== "0"), [0]),
+      table([`from, in ${what}`, "of the light"], data.lamps.map((l, j) => [nameOf(l), `${(100 * lamps[j]).toFixed(1)}%`]), [0]));
+  };
+  let soon = 0;
   const show = now => {
     const lambda = largest(now.radius), kappa = largest(now.norm), { means, times } = now, last = means[bouncesShown];
     // What is beyond the last bounce, as if each had λ of the one before.
@@ -227,6 +260,8 @@ touch.then(async t => {
       ["computed in", `${now.milliseconds.toFixed(1)} ms, without a ray`]]);
     const largestIn = field => channels.reduce((most, c) => Math.max(most, field[c].reduce((a, b) => Math.max(a, b), 0)), 0);
     const direct = largestIn(now.fields[1]);
+    clearTimeout(soon);
+    soon = setTimeout(showOrigins, 200);
     plot(means, meansBefore, meansRendered, now.fields.map((_, i) => i === 0 ? null : direct * kappa ** (i - 1)));
     const of = state.of, brighter = state.sum ? 1 : times[state.bounce];
     const tooFar = (of === "rendered" || of === "difference") && state.bounce >= rendered.length;
@@ -286,7 +321,7 @@ touch.then(async t => {
     event.preventDefault();
   });
   $("about").textContent = `${t.n} sides of patches with ${rays} rays each, ${width} × ${height} pixels${data.factor > 1 ? `, each ${data.factor} × ${data.factor} of the render` : ""}. All surfaces are diffuse. Patches blur shadows: see "patches − render".`;
-  Object.assign(window, { touched: { state, frame: () => show(compute()), compute, picturesOf, meansBefore, meansRendered } });
+  Object.assign(window, { touched: { state, frame: () => show(compute()), compute, picturesOf, meansBefore, meansRendered, origins: () => origins(compute()) } });
   latest = compute();
   show(latest);
 });

@@ -90,6 +90,14 @@ class Scene(OnFunctions, OnPatches):
         warn(changed._scene.warnings)
         return changed
 
+    def hemisphere(self, x: int, y: int) -> "Scene":
+        """Returns the scene seen from the point that the pixel in column x and row y of the film sees, as by ``--hemisphere``.
+
+        Its pictures are T K^i Le, what arrives there from all directions: the disc under the hemisphere, onto which directions are
+        projected straight down, so that ``4 * picture.mean()`` is the irradiance. Raises InputError for a pixel that is not of the
+        film, or that sees no surface."""
+        return Scene(self._scene.hemisphere(x, y))
+
     @property
     def width(self) -> int:
         """The width of pictures, in pixels."""

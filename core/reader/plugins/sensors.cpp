@@ -13,8 +13,8 @@ namespace neumann::reader {
 namespace {
 
 const std::vector<std::string>& sensor_types() {
-    static const std::vector<std::string> types = {"batch",       "distant",       "irradiancemeter", "orthographic",
-                                                   "perspective", "radiancemeter", "thinlens"};
+    static const std::vector<std::string> types = {"batch",        "distant",     "hemisphere",    "irradiancemeter",
+                                                   "orthographic", "perspective", "radiancemeter", "thinlens"};
     return types;
 }
 
@@ -70,6 +70,13 @@ SensorOptions read_orthographic(Properties& p) {
     camera.to_world = p.transform("to_world");
     read_clipping(p, camera);
     p.number("focus_distance");  // parallel rays are sharp everywhere
+    return camera;
+}
+
+SensorOptions read_hemisphere(Properties& p) {
+    SensorOptions camera;
+    camera.kind = SensorOptions::Kind::hemisphere;
+    camera.to_world = read_rigid_transform(p);
     return camera;
 }
 
@@ -139,6 +146,7 @@ public:
         if (type == "batch") return read_batch(p);
         if (type == "distant") return read_distant(p, context_);
         if (type == "orthographic") return read_orthographic(p);
+        if (type == "hemisphere") return read_hemisphere(p);
         return type == "radiancemeter" ? read_radiance_meter(p) : read_perspective(p, type);
     }
     std::string type(const Element& e) const {
@@ -208,6 +216,9 @@ void check_film(const Film& film, const SensorOptions& camera, const std::string
     if ((type == "radiancemeter" || type == "distant") && (film.width != 1 || film.height != 1))
         throw InputError(e.place,
                          fmt::format("the film of sensor '{}' has {}×{} pixels, expected 1×1", type, film.width, film.height));
+    if (type == "hemisphere" && film.width != film.height)
+        throw InputError(e.place, fmt::format("the film of sensor 'hemisphere' has {}×{} pixels, expected as many across as down",
+                                              film.width, film.height));
     if (type != "batch" || camera.sensors.empty()) return;
     const std::size_t count = camera.sensors.size();
     if (static_cast<std::size_t>(film.width) % count != 0)
