@@ -15,7 +15,7 @@ _plugins = {
     "null twosided mask blendbsdf normalmap bumpmap phong ward coating mixturebsdf retroreflector",
     "texture": "bitmap checkerboard mesh_attribute rawconstant scale",
     "emitter": "area directionalarea constant directional envmap point projector spot sunsky",
-    "sensor": "perspective thinlens orthographic radiancemeter irradiancemeter distant batch",
+    "sensor": "perspective thinlens orthographic radiancemeter irradiancemeter distant batch hemisphere",
     "film": "hdrfilm",
     "rfilter": "box tent gaussian mitchell catmullrom lanczos",
     "sampler": "independent ldsampler stratified multijitter orthogonal",
