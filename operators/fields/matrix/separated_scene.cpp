@@ -142,10 +142,7 @@ private:
                     const LightSample y = lights.sample({x.position, frame.n}, sampler.next2(), n);
                     const double cosine = glm::dot(frame.n, y.w);
                     if (!(y.pdf > 0.0) || !(cosine > 0.0) || !scene_.geometry.visible(x, y.point)) continue;
-                    const std::size_t source =
-                        y.point.is_infinite() || y.pdf == delta_pdf || !scene_.emitters.is_emitter(y.point.shape)
-                            ? scene_.geometry.shapes().size() + y.distant
-                            : y.point.shape;
+                    const std::size_t source = y.point.is_infinite() ? scene_.geometry.shapes().size() + y.distant : y.point.shape;
                     result_.lamps[lamp_of_[source]].arriving[f] += y.weight * (cosine * inv_pi / samples);
                 }
             }
